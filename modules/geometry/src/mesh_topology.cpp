@@ -1,0 +1,134 @@
+#include "drape/geometry/mesh_topology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace drape {
+namespace {
+
+// A face's directed edge, sorted by its unordered pair of vertices so that all faces on an edge stand
+// together.
+struct HalfEdge {
+  std::uint32_t low;
+  std::uint32_t high;
+  std::uint32_t face;
+  bool forward;  // the face runs from low to high
+};
+
+std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
+  std::vector<HalfEdge> edges;
+  edges.reserve(3 * mesh.faces.size());
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = mesh.faces[i][k];
+      const std::uint32_t b = mesh.faces[i][(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(i), a < b});
+    }
+  std::sort(edges.begin(), edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
+    return std::array{x.low, x.high, x.face} < std::array{y.low, y.high, y.face};
+  });
+  return edges;
+}
+
+// Calls visit(begin, end) for the half-edges of each edge.
+template <class Visit>
+void for_each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t j = i + 1;
+    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
+    visit(i, j);
+    i = j;
+  }
+}
+
+std::vector<std::vector<std::uint32_t>> loops_of(const TriangleMesh& mesh,
+                                                 const std::vector<HalfEdge>& edges) {
+  // Border half-edges run against their face, so that a loop keeps the hole on its left.
+  std::vector<std::array<std::uint32_t, 2>> border;
+  for_each_edge(edges, [&](std::size_t begin, std::size_t end) {
+    if (end - begin != 1) return;
+    const HalfEdge& e = edges[begin];
+    border.push_back(e.forward ? std::array{e.high, e.low} : std::array{e.low, e.high});
+  });
+  std::sort(border.begin(), border.end());
+  std::vector<std::uint32_t> first(mesh.vertices.size() + 1, 0);  // border edges that leave a vertex
+  for (const auto& edge : border) ++first[edge[0] + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint8_t> used(border.size(), 0);
+
+  std::vector<std::vector<std::uint32_t>> loops;
+  for (std::size_t start = 0; start < border.size(); ++start) {
+    if (used[start]) continue;
+    std::vector<std::uint32_t> loop;
+    std::size_t edge = start;
+    while (true) {
+      used[edge] = 1;
+      loop.push_back(border[edge][0]);
+      const std::uint32_t tip = border[edge][1];
+      if (tip == border[start][0]) break;
+      std::size_t next = first[tip];
+      while (next < first[tip + 1] && used[next]) ++next;
+      if (next == first[tip + 1]) break;  // inconsistent faces: an open chain, reported as it is
+      edge = next;
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& edges) {
+  std::vector<std::uint32_t> parent(mesh.faces.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t f) {
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  for_each_edge(edges, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const std::uint32_t a = root(edges[begin].face);
+      const std::uint32_t b = root(edges[i].face);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  });
+  std::vector<std::uint32_t> label(mesh.faces.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t f = 0; f < label.size(); ++f) label[f] = root(f) == f ? count++ : label[root(f)];
+  return label;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> boundary_loops(const TriangleMesh& mesh) {
+  return loops_of(mesh, sorted_half_edges(mesh));
+}
+
+std::vector<std::uint32_t> face_components(const TriangleMesh& mesh) {
+  return components_of(mesh, sorted_half_edges(mesh));
+}
+
+MeshTopology mesh_topology(const TriangleMesh& mesh) {
+  const std::vector<HalfEdge> edges = sorted_half_edges(mesh);
+  MeshTopology topology;
+  for_each_edge(edges, [&](std::size_t begin, std::size_t end) {
+    ++topology.edges;
+    if (end - begin == 1) ++topology.boundary_edges;
+    if (end - begin > 2) ++topology.non_manifold_edges;
+    if (end - begin == 2 && edges[begin].forward == edges[begin + 1].forward) ++topology.inconsistent_edges;
+  });
+  const std::vector<std::uint32_t> components = components_of(mesh, edges);
+  if (!components.empty()) topology.components = 1 + *std::max_element(components.begin(), components.end());
+  topology.boundary_loops = loops_of(mesh, edges).size();
+
+  std::vector<std::uint8_t> used(mesh.vertices.size(), 0);
+  for (const Face& f : mesh.faces)
+    for (const std::uint32_t v : f) used[v] = 1;
+  const auto used_count = static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+  topology.unused_vertices = used.size() - used_count;
+  topology.euler_characteristic = static_cast<std::ptrdiff_t>(used_count) -
+                                  static_cast<std::ptrdiff_t>(topology.edges) +
+                                  static_cast<std::ptrdiff_t>(mesh.faces.size());
+  return topology;
+}
+
+}  // namespace drape

@@ -1,0 +1,18 @@
+// Triangle mesh files.
+#pragma once
+
+#include <filesystem>
+
+#include "drape/geometry/triangle_mesh.hpp"
+
+namespace drape::io {
+
+/// PLY, OBJ, STL (ASCII and binary) or OFF, by content where it can be told, else by extension, in the file's
+/// own units. Polygons are split into fans; STL's repeated corners are welded. Colours, normals, intensity,
+/// confidence and `filled` are kept where the file has them. Error{input} with file and line or byte offset.
+[[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& file);
+
+/// Binary little-endian PLY with doubles and every attribute that the mesh has. Reads back to the same bits.
+void write_mesh_ply(const std::filesystem::path& file, const TriangleMesh& mesh);
+
+}  // namespace drape::io

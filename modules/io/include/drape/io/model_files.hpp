@@ -1,0 +1,39 @@
+// Textured models: what a user opens, mails and publishes.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <vector>
+
+#include "drape/geometry/textured_mesh.hpp"
+
+namespace drape::io {
+
+struct GlbOptions {
+  bool unlit = false;          // KHR_materials_unlit
+  bool jpeg_textures = false;  // PNG otherwise
+  int jpeg_quality = 92;
+};
+
+/// glTF 2.0 binary (Khronos specification). Vertices are written as (transform * vertex) in float32; the
+/// transform is to give metres, +Y up, about a local origin. `origin_in_extras` (metres, +Y up) is kept in
+/// the scene's extras, so that origin + position is the true place. Base colours are 8-bit sRGB, metallic 0;
+/// vertex colours, where a material has no image, are linearised as the format asks. UV origin top left, as
+/// inside drape.
+void write_glb(const std::filesystem::path& file, const TexturedMesh& model, const Eigen::Affine3d& transform,
+               const Eigen::Vector3d& origin_in_extras, const GlbOptions& options = {});
+
+/// OBJ with MTL and PNG pictures beside it (<stem>.mtl, <stem>_<material>.png), doubles, v flipped to the
+/// format's bottom-left origin. Returns every file written, the OBJ first.
+std::vector<std::filesystem::path> write_obj(const std::filesystem::path& file, const TexturedMesh& model);
+
+/// Binary PLY with per-face `texcoord` (bottom-left origin), `texnumber` and `comment TextureFile`; vertex
+/// colours where a flat material needs them. Pictures as write_obj names them. `picture_files[i]`: base name
+/// of material i's picture, empty for a flat one.
+void write_textured_ply(const std::filesystem::path& file, const TexturedMesh& model,
+                        const std::vector<std::string>& picture_files);
+/// Reads what write_textured_ply wrote, pictures included (from the folder of the PLY, or `picture_folder`).
+[[nodiscard]] TexturedMesh read_textured_ply(const std::filesystem::path& file,
+                                             const std::filesystem::path& picture_folder);
+
+}  // namespace drape::io

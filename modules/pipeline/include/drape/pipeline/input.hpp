@@ -1,0 +1,42 @@
+// The `input:` section of a configuration: which files there are, and what is known of them.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drape::pipeline {
+
+/// Known intrinsics of a photo, for upright pixels.
+struct PhotoCamera {
+  std::optional<double> focal_px;
+  std::optional<std::array<double, 9>> K;  // row by row
+  std::vector<double> distortion;          // k1 k2 p1 p2 [k3], as OpenCV
+};
+
+struct PhotoInput {
+  std::filesystem::path image;
+  std::filesystem::path mask;                     // empty: none
+  std::optional<std::array<double, 4>> box_px;    // x, y, width, height
+  std::optional<std::array<double, 2>> click_px;  // a point inside the object
+  PhotoCamera camera;
+};
+
+enum class Units { guess, metres, centimetres, millimetres, inches, feet };
+
+struct Input {
+  std::vector<std::filesystem::path> scans;  // globs expanded, sorted within a glob
+  std::filesystem::path poses;               // empty: none
+  Units units = Units::guess;                // of the scans or the mesh
+  char up = 'z';                             // 'x', 'y' or 'z': the input's axis that points up
+  std::filesystem::path mesh;                // instead of scans; empty: none
+  std::filesystem::path cameras;             // known cameras; empty: none
+  std::vector<PhotoInput> photos;
+};
+
+/// 1, 0.01, 0.001, 0.0254, 0.3048; nothing for `guess`.
+[[nodiscard]] std::optional<double> metres_per_unit(Units units);
+
+}  // namespace drape::pipeline
