@@ -50,13 +50,16 @@ class StageRun {
 };
 
 struct Stage {
-  std::string name;                      // the YAML section
-  int version = 1;                       // bumped when equal inputs give other outputs
-  std::string summary;                   // one line for help and the reference page
-  std::vector<std::string> input_parts;  // members of `input:` that it reads: "scans", "poses", "photos", ...
+  std::string name;     // the YAML section
+  int version = 1;      // bumped when equal inputs give other outputs
+  std::string summary;  // one line for help and the reference page
+  std::vector<std::string>
+      input_parts;  // members of `input:` that it reads: "scans", "poses", "mesh", "cameras", "units",
+                    // "up", "photos", "photo_regions" (mask, box, click), "photo_cameras"
   std::vector<Artifact> reads;
   std::vector<std::string> writes;            // file patterns
   std::function<bool(const Input&)> applies;  // whether a run with this input has the stage
+  bool published = false;                     // its files are copied to the configuration's `output`
 
   /// A fresh options struct with its defaults, as options to set and as a function that runs the stage with
   /// them.
