@@ -6,6 +6,8 @@
 add_library(drape_flags INTERFACE)
 target_compile_options(drape_flags INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+  # {.name = "x"} says all that it needs to.
+  -Wno-missing-field-initializers
   # The same bytes on every machine of one architecture: no fused multiply-add behind our back.
   -ffp-contract=off)
 if(DRAPE_WARNINGS_AS_ERRORS)
