@@ -1,0 +1,75 @@
+// From what a scanner wrote to points that can be trusted: bad points out, oriented normals and confidences
+// in.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "drape/base/options.hpp"
+#include "drape/base/progress.hpp"
+#include "drape/geometry/range_scan.hpp"
+
+namespace drape::ingest {
+
+enum class Normals {
+  automatic,  // those of the file where it has them, else estimated
+  estimate,   // always estimated
+};
+
+struct CleanOptions {
+  double mixed_pixel_angle_deg = 80;
+  double outlier_sigma = 3;
+  int outlier_neighbors = 16;
+  Normals normals = Normals::automatic;
+  double normal_radius_spacings = 2.5;
+  double max_incidence_deg = 85;
+  int min_island_points = 30;
+  double island_gap_spacings = 4;
+};
+
+inline void describe(Binder& b, CleanOptions& o) {
+  b.number("mixed_pixel_angle_deg", o.mixed_pixel_angle_deg, {0, 90},
+           "at a depth edge of a scan with a grid, drop a point that hangs between front and back: one whose "
+           "steps to both of its opposite neighbours lie steeper than this against the view; 90 keeps all");
+  b.number("outlier_sigma", o.outlier_sigma, {0, 100},
+           "drop points whose mean distance to their neighbours is more than this many standard deviations "
+           "above the scan's mean, and more than twice that mean; 0 keeps all");
+  b.number("outlier_neighbors", o.outlier_neighbors, {1, 200}, "neighbours that outlier_sigma looks at");
+  b.choice("normals", o.normals, {{"auto", Normals::automatic}, {"estimate", Normals::estimate}},
+           "auto takes the normals of the file where it has them; estimate computes them always");
+  b.number("normal_radius_spacings", o.normal_radius_spacings, {1, 20},
+           "radius of the neighbourhood that a normal is estimated from: larger is smoother");
+  b.number("max_incidence_deg", o.max_incidence_deg, {0, 90},
+           "drop points where the surface meets the laser at more than this angle off the normal (grazing "
+           "returns); 90 keeps all");
+  b.number("min_island_points", o.min_island_points, {0, 1e6},
+           "drop groups of fewer points that lie apart from the rest; the largest group always stays");
+  b.number("island_gap_spacings", o.island_gap_spacings, {1, 100},
+           "points closer than this belong to one group (those further than 3.5 times this do not)");
+}
+
+struct CleanedScan {
+  RangeScan scan;  // with normals, confidences and spacing
+  /// Points that each filter dropped: not_finite, duplicate, mixed_pixel, outlier, grazing, island.
+  std::map<std::string, std::size_t> dropped;
+};
+
+/// Filters a scan, in this order:
+/// - points that are not finite, and all but the first of points at the same place;
+/// - mixed pixels, where the laser spot lay half on a front and half on a back surface (after Tuley et al.
+///   2005): needs a grid;
+/// - statistical outliers (Rusu et al. 2008; the rule of PCL's StatisticalOutlierRemoval, but nothing within
+///   twice the mean distance goes: there the border of a clean, even scan lies). Where rays diverge from an
+///   origin, distances are first divided by the range, so that far surfaces may be sparse;
+/// - grazing returns: need a view;
+/// - small islands.
+///
+/// Kept points stay in order, with their attributes, and the grid still points to them. Normals are as in
+/// estimate_normals, or the file's own, turned towards the scanner. Confidence is the cosine of the
+/// incidence angle (1 where the view is unknown) times the confidence that the raw scan stated. `spacing` is
+/// measured on what stays. A scan without points comes back without points.
+[[nodiscard]] CleanedScan clean_scan(const RangeScan& raw, const CleanOptions& options,
+                                     const Progress& progress);
+
+}  // namespace drape::ingest

@@ -1,0 +1,55 @@
+#include "drape/ingest/estimate_normals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drape/ingest/point_spacing.hpp"
+#include "lattice_normals.hpp"
+#include "lattice_view.hpp"
+#include "neighborhoods.hpp"
+#include "normal_orientation.hpp"
+#include "surface_normals.hpp"
+
+namespace drape::ingest {
+
+std::size_t neighbors_in_disc(double radius_spacings) {
+  constexpr double least = 6;
+  return static_cast<std::size_t>(
+      std::max(least, std::round(std::numbers::pi * radius_spacings * radius_spacings)));
+}
+
+std::vector<Eigen::Vector3f> unoriented_normals(const RangeScan& scan, double spacing,
+                                                double radius_spacings) {
+  const auto& points = scan.cloud.positions;
+  const std::size_t neighbors = neighbors_in_disc(radius_spacings);
+  if (!scan.grid || !(spacing > 0)) return measure_neighborhoods(OrderedPoints(points), 0, neighbors).normals;
+
+  std::vector<Eigen::Vector3f> normals = lattice_normals(scan, LocalSpacing(scan, spacing), radius_spacings);
+  std::vector<std::size_t> left;
+  std::vector<Eigen::Vector3d> queries;
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    if (normals[i].isZero()) {
+      left.push_back(i);
+      queries.push_back(points[i]);
+    }
+  if (left.empty()) return normals;
+  const std::vector<Eigen::Vector3f> found = normals_at(OrderedPoints(points), queries, neighbors);
+  for (std::size_t i = 0; i < left.size(); ++i) normals[left[i]] = found[i];
+  return normals;
+}
+
+std::vector<Eigen::Vector3f> oriented_normals(std::vector<Eigen::Vector3f> normals, const RangeScan& scan,
+                                              const ScanView& view) {
+  if (view.kind != ScanView::Kind::unknown)
+    return oriented_to_view(std::move(normals), scan.cloud.positions, view);
+  return oriented_by_spanning_tree(std::move(normals), OrderedPoints(scan.cloud.positions));
+}
+
+std::vector<Eigen::Vector3f> estimate_normals(const RangeScan& scan, double radius_spacings) {
+  const double spacing = scan.spacing > 0 ? scan.spacing : point_spacing(scan);
+  return oriented_normals(unoriented_normals(scan, spacing, radius_spacings), scan,
+                          view_or_lattice_axis(scan));
+}
+
+}  // namespace drape::ingest

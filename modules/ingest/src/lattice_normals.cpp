@@ -1,0 +1,55 @@
+#include "lattice_normals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drape/base/parallel.hpp"
+#include "lattice_view.hpp"
+#include "neighborhoods.hpp"
+
+namespace drape::ingest {
+namespace {
+
+// A neighbour further than this for each cell of distance on the grid lies across a depth edge (a surface at
+// 76 degrees of incidence is still followed).
+constexpr double longest_step_spacings = 4;
+
+}  // namespace
+
+std::vector<Eigen::Vector3f> lattice_normals(const RangeScan& scan, const LocalSpacing& spacing,
+                                             double radius_cells) {
+  const RangeGrid& grid = *scan.grid;
+  const auto& points = scan.cloud.positions;
+  std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
+  const int reach = static_cast<int>(std::floor(radius_cells));
+  constexpr std::size_t rows_per_chunk = 8;
+  parallel_for(static_cast<std::size_t>(grid.rows), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<Eigen::Vector3d> around;
+    for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
+      for (int column = 0; column < grid.columns; ++column) {
+        const std::int32_t center = grid.at(row, column);
+        if (center == RangeGrid::missing) continue;
+        const double step = longest_step_spacings * spacing.at(points[center]);
+        bool other_row = false;
+        bool other_column = false;
+        around.clear();
+        for (int down = -reach; down <= reach; ++down)
+          for (int right = -reach; right <= reach; ++right) {
+            const double cells = std::hypot(down, right);
+            if (cells > radius_cells) continue;
+            const std::int32_t index = cell_or_missing(grid, row + down, column + right);
+            if (index == RangeGrid::missing ||
+                (points[index] - points[center]).norm() > step * std::max(1.0, cells))
+              continue;
+            around.push_back(points[index]);
+            other_row |= down != 0;
+            other_column |= right != 0;
+          }
+        if (around.size() >= 5 && other_row && other_column)
+          normals[static_cast<std::size_t>(center)] = plane_normal(around);
+      }
+  });
+  return normals;
+}
+
+}  // namespace drape::ingest
