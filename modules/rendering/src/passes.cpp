@@ -74,8 +74,8 @@ vec3 shade(vec3 albedo) {
   if (dot(n, flat_normal) < 0.0) n = -n;
   vec3 key = normalize(vec3(-0.45, -0.6, -1.0));
   vec3 side = normalize(vec3(0.9, -0.1, -0.5));
-  float around = mix(0.12, 0.26, 0.5 - 0.5 * n.y);
-  float diffuse = around + 0.74 * max(dot(n, key), 0.0) + 0.12 * max(dot(n, side), 0.0);
+  float around = mix(0.10, 0.26, 0.5 - 0.5 * n.y);
+  float diffuse = around + 0.86 * max(dot(n, key), 0.0) + 0.12 * max(dot(n, side), 0.0);
   float glint = 0.05 * pow(max(dot(n, normalize(key + view)), 0.0), 24.0);
   return albedo * diffuse + glint;
 }
