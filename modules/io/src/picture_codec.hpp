@@ -1,0 +1,19 @@
+// Pixels from and to the bytes of picture files, by OpenCV.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "drape/geometry/image.hpp"
+
+namespace drape::io {
+
+struct DecodedPicture {
+  Image8 pixels;                     // 1 grey, 3 RGB or 4 RGBA; 16 bit reduced to 8; as stored, not turned
+  bool only_zeros_and_ones = false;  // in the file's own depth: a mask of labels
+};
+
+/// Error{input} if the bytes are no whole picture or hold samples that are not whole numbers of 8 or 16 bits.
+[[nodiscard]] DecodedPicture decode_picture(const std::string& file, std::string_view bytes);
+
+}  // namespace drape::io

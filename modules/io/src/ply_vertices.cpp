@@ -1,0 +1,199 @@
+#include "ply_vertices.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "intensity_scale.hpp"
+
+namespace drape::io {
+namespace {
+
+using Columns = std::array<const PlyColumn*, 3>;
+
+bool complete(const Columns& columns) {
+  return std::all_of(columns.begin(), columns.end(),
+                     [](const PlyColumn* c) { return c != nullptr && !c->property.list; });
+}
+
+Eigen::Vector3d triple(const Columns& columns, std::size_t row) {
+  return {columns[0]->values[row], columns[1]->values[row], columns[2]->values[row]};
+}
+
+/// The value that means 1 in a colour or intensity column.
+double full_scale(const PlyColumn& column) {
+  switch (column.property.type) {
+    case PlyType::uint8:
+      return 255;
+    case PlyType::uint16:
+      return 65535;
+    default:
+      return 0;
+  }
+}
+
+std::vector<Eigen::Vector3f> normals_of(const Columns& columns, std::size_t rows, bool exact) {
+  std::vector<Eigen::Vector3f> normals;
+  normals.reserve(rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Eigen::Vector3d normal = triple(columns, i);
+    if (exact)
+      normals.emplace_back(normal.cast<float>());
+    else if (normal.allFinite())
+      normals.emplace_back(normal.stableNormalized().cast<float>());
+    else
+      normals.emplace_back(Eigen::Vector3f::Zero());
+  }
+  return normals;
+}
+
+std::vector<Eigen::Vector3f> colors_of(const Columns& columns, std::size_t rows, bool exact) {
+  double scale = full_scale(*columns[0]);
+  if (scale == 0) {
+    double most = 0;
+    for (const PlyColumn* column : columns)
+      for (const double value : column->values) most = std::max(most, std::isfinite(value) ? value : 0);
+    scale = exact || most <= 1 ? 1 : 255;
+  }
+  const auto channel = [&](double value) {
+    // The division that write_* undoes: byte / 255 in float.
+    const float scaled = static_cast<float>(value) / static_cast<float>(scale);
+    if (exact) return scaled;
+    return std::isfinite(scaled) ? std::clamp(scaled, 0.0F, 1.0F) : 0.0F;
+  };
+  std::vector<Eigen::Vector3f> colors;
+  colors.reserve(rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Eigen::Vector3d color = triple(columns, i);
+    colors.emplace_back(channel(color.x()), channel(color.y()), channel(color.z()));
+  }
+  return colors;
+}
+
+std::vector<float> floats_of(const PlyColumn& column) {
+  std::vector<float> values;
+  values.reserve(column.values.size());
+  for (const double value : column.values) values.push_back(static_cast<float>(value));
+  return values;
+}
+
+std::uint8_t byte_of(float value) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
+}
+
+bool bytes_hold(std::span<const Eigen::Vector3f> colors) {
+  const auto holds = [](float value) {
+    return value >= 0 && value <= 1 && static_cast<float>(byte_of(value)) / 255.0F == value;
+  };
+  return std::all_of(colors.begin(), colors.end(),
+                     [&](const Eigen::Vector3f& c) { return holds(c.x()) && holds(c.y()) && holds(c.z()); });
+}
+
+}  // namespace
+
+std::vector<PlyWanted> vertex_columns() {
+  std::vector<PlyWanted> wanted;
+  for (const char* name : {"x",
+                           "y",
+                           "z",
+                           "nx",
+                           "ny",
+                           "nz",
+                           "normal_x",
+                           "normal_y",
+                           "normal_z",
+                           "red",
+                           "green",
+                           "blue",
+                           "r",
+                           "g",
+                           "b",
+                           "diffuse_red",
+                           "diffuse_green",
+                           "diffuse_blue",
+                           "intensity",
+                           "scalar_Intensity",
+                           "scalar_intensity",
+                           "confidence"})
+    wanted.push_back({"vertex", name});
+  return wanted;
+}
+
+PointCloud vertices_of(const PlyFile& ply) {
+  const PlyTable* table = ply.table("vertex");
+  const Columns xyz =
+      table == nullptr ? Columns{} : Columns{table->column("x"), table->column("y"), table->column("z")};
+  if (!complete(xyz)) throw input_error("{}: has no element \"vertex\" with x, y and z", ply.file);
+  const bool exact = has_mark(ply.header);
+  const std::size_t rows = table->rows();
+  PointCloud cloud;
+  cloud.positions.reserve(rows);
+  for (std::size_t i = 0; i < rows; ++i) cloud.positions.push_back(triple(xyz, i));
+
+  const Columns normal{table->column_of({"nx", "normal_x"}), table->column_of({"ny", "normal_y"}),
+                       table->column_of({"nz", "normal_z"})};
+  if (complete(normal)) cloud.normals = normals_of(normal, rows, exact);
+  const Columns color{table->column_of({"red", "diffuse_red", "r"}),
+                      table->column_of({"green", "diffuse_green", "g"}),
+                      table->column_of({"blue", "diffuse_blue", "b"})};
+  if (complete(color)) cloud.colors = colors_of(color, rows, exact);
+  if (const PlyColumn* c = table->column_of({"intensity", "scalar_Intensity", "scalar_intensity"});
+      c && !c->property.list)
+    cloud.intensities = exact ? floats_of(*c) : scaled_intensities(c->values, full_scale(*c));
+  if (const PlyColumn* c = table->column("confidence"); c && !c->property.list)
+    cloud.confidences = floats_of(*c);
+  return cloud;
+}
+
+void put_mark(PlyBuilder& ply, std::string_view kind) {
+  ply.obj_info("drape_file " + std::string(kind));
+}
+
+bool has_mark(const PlyHeader& header) {
+  return !header.info("drape_file").empty();
+}
+
+VertexWriter::VertexWriter(std::span<const Eigen::Vector3d> positions,
+                           std::span<const Eigen::Vector3f> normals, std::span<const Eigen::Vector3f> colors,
+                           std::span<const float> intensities, std::span<const float> confidences)
+    : positions_(positions),
+      normals_(normals),
+      colors_(colors),
+      intensities_(intensities),
+      confidences_(confidences),
+      byte_colors_(bytes_hold(colors)) {
+  [[maybe_unused]] const auto fits = [&](std::size_t size) { return size == 0 || size == positions.size(); };
+  assert(fits(normals.size()) && fits(colors.size()) && fits(intensities.size()) && fits(confidences.size()));
+}
+
+void VertexWriter::declare(PlyBuilder& ply) const {
+  ply.element("vertex", positions_.size());
+  for (const char* name : {"x", "y", "z"}) ply.property(PlyType::float64, name);
+  if (!normals_.empty())
+    for (const char* name : {"nx", "ny", "nz"}) ply.property(PlyType::float32, name);
+  if (!colors_.empty())
+    for (const char* name : {"red", "green", "blue"})
+      ply.property(byte_colors_ ? PlyType::uint8 : PlyType::float32, name);
+  if (!intensities_.empty()) ply.property(PlyType::float32, "intensity");
+  if (!confidences_.empty()) ply.property(PlyType::float32, "confidence");
+}
+
+std::size_t VertexWriter::bytes() const {
+  return 24 * positions_.size() + 12 * normals_.size() + (byte_colors_ ? 3 : 12) * colors_.size() +
+         4 * (intensities_.size() + confidences_.size());
+}
+
+void VertexWriter::put_rows(PlyBuilder& ply) const {
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    for (const double value : positions_[i]) ply.put_double(value);
+    if (!normals_.empty())
+      for (const float value : normals_[i]) ply.put_float(value);
+    if (!colors_.empty())
+      for (const float value : colors_[i]) byte_colors_ ? ply.put_byte(byte_of(value)) : ply.put_float(value);
+    if (!intensities_.empty()) ply.put_float(intensities_[i]);
+    if (!confidences_.empty()) ply.put_float(confidences_[i]);
+  }
+}
+
+}  // namespace drape::io
