@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 namespace drape::report {
 
@@ -17,6 +17,32 @@ float srgb_from_linear(float value) {
 
 std::uint8_t byte_from_unit(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
+}
+
+float linear_from_byte(std::uint8_t value) {
+  static const auto table = [] {
+    std::array<float, 256> light{};
+    for (std::size_t i = 0; i < light.size(); ++i)
+      light[i] = linear_from_srgb(static_cast<float>(i) / 255.0F);
+    return light;
+  }();
+  return table[value];
+}
+
+std::uint8_t byte_from_linear(float light) {
+  // sRGB is steepest at black, with 3295 codes per unit of light: a step of this table is 0.05 codes there.
+  constexpr std::size_t steps = 65536;
+  static const auto table = [] {
+    std::vector<std::uint8_t> codes(steps + 1);
+    for (std::size_t i = 0; i <= steps; ++i)
+      codes[i] = byte_from_unit(srgb_from_linear(static_cast<float>(i) / static_cast<float>(steps)));
+    return codes;
+  }();
+  return table[static_cast<std::size_t>(std::clamp(light, 0.0F, 1.0F) * static_cast<float>(steps) + 0.5F)];
+}
+
+Eigen::Vector3f linear_from_srgb(const Eigen::Vector3f& color) {
+  return color.unaryExpr([](float value) { return linear_from_srgb(value); });
 }
 
 Eigen::Vector3f item_color(std::size_t index) {

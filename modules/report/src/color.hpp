@@ -13,6 +13,11 @@ namespace drape::report {
 
 [[nodiscard]] std::uint8_t byte_from_unit(float value);  // clamped, rounded
 
+/// The same for stored bytes, by table. There and back gives the same byte.
+[[nodiscard]] float linear_from_byte(std::uint8_t value);
+[[nodiscard]] std::uint8_t byte_from_linear(float light);  // clamped
+[[nodiscard]] Eigen::Vector3f linear_from_srgb(const Eigen::Vector3f& color);
+
 /// sRGB colour of the item with this number: neighbours differ much in hue and a little in lightness, so that
 /// they are told apart without hue as well. (Oklab, Ottosson 2020.)
 [[nodiscard]] Eigen::Vector3f item_color(std::size_t index);

@@ -1,9 +1,9 @@
 #include "drape/report/contact_sheet.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -13,22 +13,15 @@
 namespace drape::report {
 namespace {
 
-std::array<float, 256> linear_table() {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear_from_srgb(static_cast<float>(i) / 255.0F);
-  return table;
-}
-
 // Linear light; with alpha, premultiplied by it.
 cv::Mat to_linear(const Image8& picture) {
-  static const std::array<float, 256> table = linear_table();
   cv::Mat linear(picture.height(), picture.width(), CV_32FC(picture.channels()));
   for (int y = 0; y < picture.height(); ++y) {
     auto* row = linear.ptr<float>(y);
     for (int x = 0; x < picture.width(); ++x) {
       const float alpha = picture.channels() == 4 ? static_cast<float>(picture.at(x, y, 3)) / 255.0F : 1.0F;
       for (int c = 0; c < picture.channels(); ++c)
-        *row++ = c == 3 ? alpha : alpha * table[picture.at(x, y, c)];
+        *row++ = c == 3 ? alpha : alpha * linear_from_byte(picture.at(x, y, c));
     }
   }
   return linear;
@@ -41,8 +34,8 @@ Image8 from_linear(const cv::Mat& linear) {
     for (int x = 0; x < linear.cols; ++x, pixel += linear.channels()) {
       const float alpha = linear.channels() == 4 ? pixel[3] : 1.0F;
       for (int c = 0; c < linear.channels(); ++c)
-        picture.at(x, y, c) = byte_from_unit(
-            c == 3 ? alpha : srgb_from_linear(alpha > 0 ? std::max(pixel[c], 0.0F) / alpha : 0.0F));
+        picture.at(x, y, c) =
+            c == 3 ? byte_from_unit(alpha) : byte_from_linear(alpha > 0 ? pixel[c] / alpha : 0.0F);
     }
   }
   return picture;
@@ -54,9 +47,9 @@ void paste(Image8& sheet, const Image8& picture, int left, int top) {
     for (int x = 0; x < picture.width(); ++x) {
       const float alpha = picture.channels() == 4 ? static_cast<float>(picture.at(x, y, 3)) / 255.0F : 1.0F;
       for (int c = 0; c < 3; ++c) {
-        const float over = linear_from_srgb(static_cast<float>(picture.at(x, y, grey ? 0 : c)) / 255.0F);
-        const float under = linear_from_srgb(static_cast<float>(sheet.at(left + x, top + y, c)) / 255.0F);
-        sheet.at(left + x, top + y, c) = byte_from_unit(srgb_from_linear(alpha * over + (1 - alpha) * under));
+        const float over = linear_from_byte(picture.at(x, y, grey ? 0 : c));
+        const float under = linear_from_byte(sheet.at(left + x, top + y, c));
+        sheet.at(left + x, top + y, c) = byte_from_linear(alpha * over + (1 - alpha) * under);
       }
     }
 }
@@ -70,7 +63,7 @@ int columns_for(int count, const ContactSheetStyle& style) {
     const int rows = (count + columns - 1) / columns;
     const double shape = static_cast<double>(columns) * style.cell_width_px / (rows * style.cell_height_px);
     // Cells that stay empty in the last row count as a worse shape.
-    const double distance = std::abs(std::log(shape / wanted)) + 0.2 * (rows * columns - count);
+    const double distance = std::abs(std::log(shape / wanted)) + 0.5 * (rows * columns - count);
     if (distance < best_distance) {
       best = columns;
       best_distance = distance;

@@ -20,10 +20,6 @@ constexpr float tint_share = 0.55F;
 constexpr float dimmed_light = 0.22F;  // of the light outside the object
 constexpr float halo_share = 0.6F;     // how dark the rim is that sets a line apart from a bright photo
 
-Eigen::Vector3f linear(const Eigen::Vector3f& srgb) {
-  return srgb.unaryExpr([](float v) { return linear_from_srgb(v); });
-}
-
 void require_size(const Image8& stencil, const Image8& photo, std::string_view which) {
   if (stencil.empty()) return;
   if (stencil.channels() != 1 || stencil.width() != photo.width() || stencil.height() != photo.height())
@@ -64,31 +60,29 @@ class Overlay {
  public:
   Overlay(const Image8& photo, const Image8& image_stencil, const Image8& model_stencil)
       : photo_(photo), image_stencil_(image_stencil), model_stencil_(model_stencil) {
-    width_px_ = std::max(1.3, 0.0024 * std::max(photo.width(), photo.height()));
+    width_px_ = std::max(1.5, 0.002 * std::max(photo.width(), photo.height()));
     const double smoothing_px = std::max(0.7, 0.5 * width_px_);
     if (!image_stencil.empty()) image_distance_ = outline_distance(image_stencil, smoothing_px);
     if (!model_stencil.empty()) model_distance_ = outline_distance(model_stencil, smoothing_px);
   }
 
   [[nodiscard]] Eigen::Vector3f pixel(int x, int y) const {
-    Eigen::Vector3f light =
-        linear(Eigen::Vector3f(photo_.at(x, y, 0), photo_.at(x, y, 1), photo_.at(x, y, 2)) / 255.0F);
+    Eigen::Vector3f light(linear_from_byte(photo_.at(x, y, 0)), linear_from_byte(photo_.at(x, y, 1)),
+                          linear_from_byte(photo_.at(x, y, 2)));
     const std::uint8_t image = at(image_stencil_, x, y);
     const std::uint8_t model = at(model_stencil_, x, y);
     if (image != stencil::object && model != stencil::object) light *= dimmed_light;
     if (!image_stencil_.empty() && !model_stencil_.empty()) {
-      if (image == stencil::object && model != stencil::object)
-        light = mixed(light, linear(orange), tint_share);
-      if (image == stencil::background && model == stencil::object)
-        light = mixed(light, linear(blue), tint_share);
+      if (image == stencil::object && model != stencil::object) light = mixed(light, orange_, tint_share);
+      if (image == stencil::background && model == stencil::object) light = mixed(light, blue_, tint_share);
     }
     const float to_image = image_distance_.empty() ? 1e6F : image_distance_.at<float>(y, x);
     const float to_model = model_distance_.empty() ? 1e6F : model_distance_.at<float>(y, x);
-    const float halo = coverage(std::min(to_image, to_model), 3.4 * width_px_);
+    const float halo = coverage(std::min(to_image, to_model), 3.2 * width_px_);
     light *= 1 - halo_share * halo;
     // The image's line is wider and lies below, so that both show where they run together.
-    light = mixed(light, linear(orange), coverage(to_image, image_line_width_px()));
-    light = mixed(light, linear(blue), coverage(to_model, width_px_));
+    light = mixed(light, orange_, coverage(to_image, image_line_width_px()));
+    light = mixed(light, blue_, coverage(to_model, width_px_));
     return light;
   }
 
@@ -100,12 +94,14 @@ class Overlay {
     return (1 - share_of_b) * a + share_of_b * b;
   }
   [[nodiscard]] double image_line_width_px() const {
-    return model_stencil_.empty() ? width_px_ : 2.2 * width_px_;
+    return model_stencil_.empty() ? width_px_ : 2.1 * width_px_;
   }
 
   const Image8& photo_;
   const Image8& image_stencil_;
   const Image8& model_stencil_;
+  Eigen::Vector3f orange_ = linear_from_srgb(orange);
+  Eigen::Vector3f blue_ = linear_from_srgb(blue);
   double width_px_ = 1;
   cv::Mat image_distance_;
   cv::Mat model_distance_;
@@ -123,7 +119,7 @@ Image8 overlay_picture(const Image8& photo, const Image8& image_stencil, const I
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
       for (int x = 0; x < photo.width(); ++x) {
         const Eigen::Vector3f light = overlay.pixel(x, y);
-        for (int c = 0; c < 3; ++c) picture.at(x, y, c) = byte_from_unit(srgb_from_linear(light[c]));
+        for (int c = 0; c < 3; ++c) picture.at(x, y, c) = byte_from_linear(light[c]);
       }
   });
   return picture;

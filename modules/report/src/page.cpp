@@ -26,6 +26,10 @@ std::string time_element(const std::string& iso) {
   return fmt::format("<time datetime=\"{}\">{}</time>", escaped(iso), escaped(shown));
 }
 
+std::string title_of(const RunPage& page) {
+  return page.title.empty() ? "Run without a name" : escaped(page.title);
+}
+
 std::string head(const RunPage& page) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n"
@@ -34,13 +38,15 @@ std::string head(const RunPage& page) {
       // The browser itself then refuses whatever is not in this file.
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
       "'unsafe-inline'\" />\n<title>{} \u00b7 {}</title>\n<style>{}</style>\n</head>\n",
-      escaped(page.title), word(page.status), page_style());
+      title_of(page), word(page.status), page_style());
 }
 
 std::string navigation(const RunPage& page) {
   std::string text =
       "<nav aria-label=\"Contents\">\n<div class=\"brand\">drape<small>run report</small></div>\n<ul><li><a "
-      "href=\"#result\">Result</a></li><li><a href=\"#times\">Times</a></li></ul>\n";
+      "href=\"#result\">Result</a></li>";
+  if (!page.stages.empty()) text += "<li><a href=\"#times\">Times</a></li>";
+  text += "</ul>\n";
   if (!page.stages.empty()) {
     text += "<ul class=\"group\">\n";
     for (std::size_t i = 0; i < page.stages.size(); ++i) {
@@ -81,7 +87,7 @@ std::string result(const RunPage& page) {
   return fmt::format(
              "<section class=\"card\" id=\"result\">\n<p class=\"eyebrow\">Run report</p>\n<div "
              "class=\"titleline\"><h1>{}</h1>{}</div>\n<p class=\"meta\">{}</p>\n",
-             escaped(page.title), status_pill(page.status), facts(page)) +
+             title_of(page), status_pill(page.status), facts(page)) +
          note(page.status == RunStatus::failed ? "Why it failed" : "Why it needs review", page.reasons,
               page.status == RunStatus::failed) +
          number_tiles(page.numbers) + picture_grid(page.pictures, "result", true) + "</section>\n";
@@ -89,7 +95,8 @@ std::string result(const RunPage& page) {
 
 std::string times(const RunPage& page) {
   return "<section class=\"card\" id=\"times\">\n<h2>Times and memory</h2>\n" + time_table(page) +
-         "<p class=\"meta\">Of a reused stage: what it took in the run that made it.</p>\n</section>\n";
+         "<p class=\"meta\">Memory is the most that a stage held at one time. Of a reused stage: what it "
+         "took in the run that made it.</p>\n</section>\n";
 }
 
 std::string stage_section(const StageSection& stage, std::size_t index) {

@@ -30,6 +30,12 @@ std::string caption_of(const Picture& picture) {
   return text;
 }
 
+// Rows of views take the whole width of the page, large sheets of them two places of the grid.
+std::string_view slot_size(const EncodedPicture& picture) {
+  if (picture.width > 2 * picture.height) return " wide";
+  return picture.width >= 1000 && picture.width > picture.height ? " double" : "";
+}
+
 std::string figure(const Picture& picture, const std::string& id) {
   const auto encoded = encoded_picture(picture.png_or_jpeg_bytes);
   if (!encoded)
@@ -38,14 +44,13 @@ std::string figure(const Picture& picture, const std::string& id) {
         "neither PNG "
         "nor JPEG.</div><figcaption>{}</figcaption></figure></div>\n",
         caption_of(picture));
-  const bool wide = encoded->width > 2 * encoded->height;
   // The link makes the figure the page's target, which the style shows alone and large; the second leads
   // back.
   return fmt::format(
       "<div class=\"slot{0}\" id=\"{1}-back\"><figure id=\"{1}\"><a class=\"plate\" href=\"#{1}\" "
       "title=\"Show larger\"><img src=\"data:{2};base64,{3}\" width=\"{4}\" height=\"{5}\" alt=\"{6}\" "
       "/></a><figcaption>{7}</figcaption><a class=\"close\" href=\"#{1}-back\">Close</a></figure></div>\n",
-      wide ? " wide" : "", id, encoded->media_type, base64(picture.png_or_jpeg_bytes), encoded->width,
+      slot_size(*encoded), id, encoded->media_type, base64(picture.png_or_jpeg_bytes), encoded->width,
       encoded->height, escaped(picture.alt_text.empty() ? picture.title : picture.alt_text),
       caption_of(picture));
 }
@@ -104,13 +109,16 @@ std::string number_tiles(const std::vector<Number>& numbers) {
 
 std::string number_table(const std::vector<Number>& numbers) {
   if (numbers.empty()) return {};
-  std::string text =
-      "<h3>Numbers</h3>\n<table class=\"numbers\"><thead><tr><th scope=\"col\">What</th><th scope=\"col\" "
-      "class=\"figure\">Value</th><th scope=\"col\">Meaning</th></tr></thead><tbody>\n";
+  const bool bare =
+      std::all_of(numbers.begin(), numbers.end(), [](const Number& n) { return n.meaning.empty(); });
+  std::string text = fmt::format(
+      "<h3>Numbers</h3>\n<table class=\"numbers{}\"><thead><tr><th scope=\"col\">What</th><th "
+      "scope=\"col\" class=\"figure\">Value</th>{}</tr></thead><tbody>\n",
+      bare ? " bare" : "", bare ? "" : "<th scope=\"col\" class=\"meaning\">Meaning</th>");
   for (const Number& number : numbers)
-    text += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"figure\">{}</td><td class=\"meaning\">{}</td></tr>\n",
-        escaped(number.name), value_with_unit(number), escaped(number.meaning));
+    text += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"figure\">{}</td>{}</tr>\n",
+                        escaped(number.name), value_with_unit(number),
+                        bare ? "" : "<td class=\"meaning\">" + escaped(number.meaning) + "</td>");
   return text + "</tbody></table>\n";
 }
 
@@ -141,7 +149,7 @@ std::string time_table(const RunPage& page) {
   std::string text =
       "<div class=\"scroll\"><table class=\"times\"><thead><tr><th scope=\"col\">Stage</th><th "
       "scope=\"col\">State</th><th scope=\"col\" class=\"figure\">Time</th><th scope=\"col\" "
-      "class=\"figure\">Peak memory</th><th scope=\"col\" class=\"share\">Share of the "
+      "class=\"figure\">Memory</th><th scope=\"col\" class=\"share\">Share of the "
       "longest</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < page.stages.size(); ++i) text += time_row(page.stages[i], i + 1, longest);
   text += fmt::format(

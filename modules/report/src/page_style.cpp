@@ -7,7 +7,7 @@ std::string_view page_style() {
 :root {
   color-scheme: light dark;
   --paper: #f5f6f8; --card: #ffffff; --ink: #1a1f26; --soft: #566070; --line: #dde2e8;
-  --accent: #0a6570; --accent-soft: #e0f0f1; --plate: #e9ecf0; --code: #f1f3f6;
+  --accent: #0a6570; --accent-soft: #e0f0f1; --plate: #eceef1; --code: #f1f3f6;
   --ok: #17693f; --ok-soft: #e0f3e8; --review: #7a4d00; --review-soft: #fdf0d5; --review-line: #e8b34b;
   --failed: #a3211a; --failed-soft: #fce7e5; --failed-line: #e2857f; --bar: #2f9aa6; --bar-old: #b4bfca;
   --shadow: 0 1px 2px rgba(20, 30, 45, .06), 0 4px 14px rgba(20, 30, 45, .05);
@@ -77,20 +77,25 @@ nav .name { flex: 1; min-width: 0; overflow-wrap: anywhere; }
 .tiles .meaning { color: var(--soft); font-size: .82rem; line-height: 1.4; }
 
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 17rem), 1fr)); gap: 1.2rem; }
-.pictures.large { grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); margin-top: 1.2rem; }
+.pictures.large { grid-template-columns: repeat(auto-fit, minmax(min(100%, 16rem), 1fr)); margin-top: 1.2rem; }
 .slot { min-width: 0; }
 .wide { grid-column: 1 / -1; }
+.double { grid-column: span 2; }
+.large .double { grid-column: 1 / -1; }
 figure .plate { display: flex; align-items: center; justify-content: center; background: var(--plate); border: 1px solid var(--line); border-radius: 9px; overflow: hidden; cursor: zoom-in; }
 .slot:not(.wide) .plate { aspect-ratio: 4 / 3; }
+.slot.double .plate { aspect-ratio: auto; }
+.slot.double img { height: auto; }
 figure img { display: block; max-width: 100%; max-height: 100%; width: auto; height: auto; object-fit: contain; }
 .slot:not(.wide) img { width: 100%; height: 100%; }
 figcaption { margin-top: .5rem; font-size: .87rem; line-height: 1.45; color: var(--soft); overflow-wrap: anywhere; }
+dt::first-letter, .numbers th::first-letter { text-transform: uppercase; }
 figcaption b { color: var(--ink); font-weight: 650; }
-.broken { aspect-ratio: auto; padding: 2rem 1rem; color: var(--soft); cursor: default; font-size: .9rem; text-align: center; }
+.slot .plate.broken { aspect-ratio: auto; padding: 2rem 1rem; color: var(--soft); cursor: default; font-size: .9rem; text-align: center; }
 .close { display: none; }
-figure:target { position: fixed; inset: 0; z-index: 9; background: rgba(10, 13, 17, .96); padding: 1.2rem; display: flex; flex-direction: column; align-items: center; justify-content: center; }
-figure:target .plate { background: none; border: 0; border-radius: 0; aspect-ratio: auto; flex: 1; min-height: 0; width: 100%; cursor: default; }
-figure:target img { width: 100%; height: 100%; filter: none; }
+figure:target { position: fixed; inset: 0; z-index: 9; background: #0c1015; padding: 1.2rem; display: flex; flex-direction: column; align-items: center; justify-content: center; }
+.slot figure:target .plate { background: none; border: 0; border-radius: 0; aspect-ratio: auto; flex: 1; min-height: 0; width: 100%; cursor: default; }
+.slot figure:target img { width: 100%; height: 100%; filter: none; }
 figure:target figcaption { color: #c5ccd5; max-width: 60rem; text-align: center; }
 figure:target figcaption b { color: #fff; }
 figure:target .close { display: block; position: absolute; top: .8rem; right: .8rem; padding: .35rem .9rem; border-radius: 8px; background: #2a323c; color: #fff; text-decoration: none; font-weight: 600; }
@@ -101,14 +106,17 @@ th, td { text-align: left; padding: .5rem .9rem .5rem 0; border-bottom: 1px soli
 thead th { color: var(--soft); font-weight: 600; font-size: .83rem; white-space: nowrap; }
 tbody tr:last-child > * { border-bottom: 0; }
 tfoot th, tfoot td { border-top: 2px solid var(--line); border-bottom: 0; font-weight: 650; }
-tbody th { font-weight: 500; overflow-wrap: anywhere; }
-.figure { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
+tbody th { font-weight: 500; }
+.figure { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; padding-right: 1.8rem; }
 .times { margin-top: 1rem; }
+.times th, .times td { vertical-align: middle; }
 .times .share { width: 34%; padding-right: 0; vertical-align: middle; }
 .track { display: block; height: .6rem; border-radius: 4px; background: var(--plate); overflow: hidden; }
 .track span { display: block; height: 100%; background: var(--bar); border-radius: 4px; min-width: 2px; }
 .track .reused { background: var(--bar-old); }
-.numbers td.meaning, .numbers th { overflow-wrap: anywhere; }
+.numbers .meaning, .numbers th, .options th { overflow-wrap: anywhere; }
+.numbers.bare { width: auto; min-width: 45%; }
+.times th { white-space: nowrap; }
 .numbers .meaning { color: var(--soft); width: 55%; padding-right: 0; }
 .numbers .figure { font-weight: 600; }
 .numbers .unit { font-weight: 400; color: var(--soft); }
@@ -117,7 +125,8 @@ tbody th { font-weight: 500; overflow-wrap: anywhere; }
 .head .cost { margin-left: auto; color: var(--soft); font-size: .9rem; font-variant-numeric: tabular-nums; }
 .summary { color: var(--soft); margin-top: .35rem; max-width: 46rem; }
 .options code { overflow-wrap: anywhere; }
-.options td { padding-right: 0; }
+.options { width: auto; min-width: 45%; }
+.options th { padding-right: 2.5rem; }
 pre { background: var(--code); border: 1px solid var(--line); border-radius: 9px; padding: .85rem 1rem; overflow-x: auto; line-height: 1.5; tab-size: 2; }
 pre.wrap { white-space: pre-wrap; overflow-wrap: anywhere; }
 summary { cursor: pointer; color: var(--accent); font-weight: 600; }
@@ -148,6 +157,15 @@ footer { color: var(--soft); font-size: .85rem; text-align: center; padding-top:
   .numbers tr:last-child { border-bottom: 0; }
   .numbers th, .numbers td { border: 0; padding: 0; }
   .numbers th { padding-right: .9rem; }
+  th, td { padding-right: .7rem; }
+  .figure { padding-right: 1rem; }
+  .times { font-size: .88rem; }
+  .times th, .times td { padding-right: .3rem; }
+  .times .figure { padding-right: 0; padding-left: .6rem; }
+  .times .pill { padding: .1rem .5rem; font-size: .8rem; }
+  .numbers.bare { width: 100%; }
+  .slot.double { grid-column: auto; }
+  .numbers .figure { padding-right: 0; }
   .numbers .meaning { grid-column: 1 / -1; width: auto; font-size: .85rem; }
   .head .cost { margin-left: 0; flex-basis: 100%; }
 }

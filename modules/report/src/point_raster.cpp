@@ -64,7 +64,7 @@ Image8 PointRaster::picture(const Eigen::Vector3f& background) const {
       const float shade = seen ? shading(x, y) : 1.0F;
       for (int c = 0; c < 3; ++c)
         image.at(x, y, c) =
-            byte_from_unit(seen ? srgb_from_linear(shade * light_.at(x, y)[c]) : background[c]);
+            seen ? byte_from_linear(shade * light_.at(x, y)[c]) : byte_from_unit(background[c]);
     }
   return image;
 }

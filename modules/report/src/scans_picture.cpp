@@ -25,10 +25,6 @@ struct Splat {
   Eigen::Vector3f color;  // linear light
 };
 
-Eigen::Vector3f linear(const Eigen::Vector3f& srgb) {
-  return srgb.unaryExpr([](float v) { return linear_from_srgb(v); });
-}
-
 // Median distance to the nearest other point, over a part of the points.
 double spacing(std::span<const Eigen::Vector3d> all) {
   std::vector<Eigen::Vector3d> points;
@@ -53,7 +49,7 @@ std::vector<Splat> splats_of(std::span<const PlacedScan> scans) {
       throw input_error("scan {} has {} points and {} normals", s, scan.positions.size(),
                         scan.normals.size());
     const auto distance = static_cast<float>(spacing(scan.positions));
-    const Eigen::Vector3f color = linear(item_color(s));
+    const Eigen::Vector3f color = linear_from_srgb(item_color(s));
     const Eigen::Matrix3f rotation = scan.world_from_scan.linear().cast<float>();
     for (std::size_t i = 0; i < scan.positions.size(); ++i)
       if (scan.positions[i].allFinite())
@@ -62,10 +58,35 @@ std::vector<Splat> splats_of(std::span<const PlacedScan> scans) {
                           1.9F * distance, color});
     for (const Eigen::Vector3d& point : scan.dropped)
       if (point.allFinite())
-        splats.push_back(
-            {scan.world_from_scan * point, Eigen::Vector3f::Zero(), 1.2F * distance, linear(dropped_color)});
+        splats.push_back({scan.world_from_scan * point, Eigen::Vector3f::Zero(), 1.2F * distance,
+                          linear_from_srgb(dropped_color)});
   }
   return splats;
+}
+
+// What the pictures are framed by: all but far strays, which would make the rest small.
+std::vector<Eigen::Vector3d> without_strays(const std::vector<Splat>& splats) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(splats.size());
+  for (const Splat& splat : splats) points.push_back(splat.position);
+  if (points.empty()) return points;
+  const auto quantile = [](std::vector<double> values, double fraction) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  Eigen::Vector3d middle;
+  std::vector<double> values(points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(points.begin(), points.end(), values.begin(), [axis](const auto& p) { return p[axis]; });
+    middle[axis] = quantile(values, 0.5);
+  }
+  std::transform(points.begin(), points.end(), values.begin(),
+                 [&](const auto& p) { return (p - middle).norm(); });
+  const double reach = 1.05 * quantile(values, 0.998);
+  std::erase_if(points, [&](const Eigen::Vector3d& p) { return (p - middle).norm() > reach; });
+  return points;
 }
 
 Image8 view_of(const std::vector<Splat>& splats, const Camera& camera, const Eigen::Vector3f& background) {
@@ -83,10 +104,7 @@ Image8 view_of(const std::vector<Splat>& splats, const Camera& camera, const Eig
 
 Image8 scans_picture(std::span<const PlacedScan> scans, const ScansPictureStyle& style) {
   const std::vector<Splat> splats = splats_of(scans);
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(splats.size());
-  for (const Splat& splat : splats) points.push_back(splat.position);
-  const std::vector<Camera> cameras = cameras_around(points, style.view);
+  const std::vector<Camera> cameras = cameras_around(without_strays(splats), style.view);
   std::vector<Image8> pictures(cameras.size());
   parallel_for(cameras.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) pictures[i] = view_of(splats, cameras[i], style.background);

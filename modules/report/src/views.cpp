@@ -59,7 +59,7 @@ std::vector<Camera> cameras_around(std::span<const Eigen::Vector3d> points, cons
   const BoundingBox box = bounding_box(points);
   if (box.isEmpty()) return {};
   const Eigen::Vector3d center = box.center();
-  const double radius = std::max(radius_about(points, center), 1e-9 * std::max(1.0, center.norm()));
+  const double radius = std::max(radius_about(points, center), 1e-7 * std::max(1.0, center.norm()));
   const double distance = radius / std::sin(first_fov_deg * deg / 2);
   const Eigen::Vector3d up = style.up.normalized();
   const Eigen::Vector3d first = first_side(style);
@@ -74,7 +74,7 @@ std::vector<Camera> cameras_around(std::span<const Eigen::Vector3d> points, cons
         look_at(center + distance * towards, center, up, style.width_px, style.height_px, first_fov_deg));
     most = std::max(most, reach(points, cameras.back()));
   }
-  if (most > 0)
+  if (most > 1e-6)  // less is rounding: all points are in one place
     for (Camera& camera : cameras) camera.K.topLeftCorner<2, 2>() *= style.filled_percent / 100 / most;
   return cameras;
 }
