@@ -14,6 +14,13 @@ bool looks_like_ply(std::string_view bytes) {
          (bytes[3] == '\n' || bytes[3] == '\r' || bytes[3] == ' ');
 }
 
+bool looks_like_pcd(std::string_view bytes) {
+  return bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") || bytes.starts_with("FIELDS");
+}
+bool no_signature(std::string_view) {
+  return false;
+}
+
 struct ScanFormat {
   std::string_view extension;
   bool (*recognises)(std::string_view bytes);
@@ -21,8 +28,15 @@ struct ScanFormat {
 };
 
 // Content counts before the extension: the first that recognises the bytes, else the one of the extension.
-constexpr std::array<ScanFormat, 1> formats{{
+constexpr std::array<ScanFormat, 8> formats{{
     {"ply", looks_like_ply, read_ply_scan},
+    {"pcd", looks_like_pcd, read_pcd_scan},
+    {"xyz", no_signature, read_xyz_scan},
+    {"txt", no_signature, read_xyz_scan},
+    {"csv", no_signature, read_xyz_scan},
+    {"asc", no_signature, read_xyz_scan},
+    {"xyzn", no_signature, read_xyz_scan},
+    {"xyzrgb", no_signature, read_xyz_scan},
 }};
 
 const ScanFormat& format_of(const std::filesystem::path& file, std::string_view bytes) {
@@ -32,8 +46,7 @@ const ScanFormat& format_of(const std::filesystem::path& file, std::string_view 
   std::string known;
   for (const ScanFormat& format : formats) {
     if (format.extension == ending) return format;
-    if (known.find(format.extension) == std::string::npos)
-      known += (known.empty() ? "" : ", ") + std::string(format.extension);
+    known += (known.empty() ? "" : ", ") + std::string(format.extension);
   }
   throw input_error("{}: is no scan format that can be read ({})", file.string(), known);
 }
