@@ -281,7 +281,8 @@ class Checker {
         problem("material {}: baseColorFactor is no colour", i);
     }
     if (pbr.contains("baseColorTexture")) (void)index(pbr["baseColorTexture"].at("index"), "textures");
-    for (const auto& [name, value] : material.value("extensions", Json::object()).items())
+    const Json extensions = material.value("extensions", Json::object());
+    for (const auto& [name, value] : extensions.items())
       if (used_.count(name) == 0 || !value.is_object())
         problem("material {}: extension {} is not listed as used", i, name);
   }
