@@ -26,8 +26,10 @@ struct MeshFormat {
 };
 
 // Content counts before the extension: the first that recognises the bytes, else the one of the extension.
-constexpr std::array<MeshFormat, 2> formats{{
+constexpr std::array<MeshFormat, 4> formats{{
     {"ply", looks_like_ply, read_ply_mesh},
+    {"off", looks_like_off, read_off_mesh},
+    {"stl", looks_like_binary_stl, read_stl_mesh},
     {"obj", no_signature, read_obj_mesh},
 }};
 

@@ -18,6 +18,10 @@ using MeshReader = TriangleMesh (*)(const std::string& file, std::string_view by
 [[nodiscard]] TriangleMesh read_stl_mesh(const std::string& file, std::string_view bytes);
 [[nodiscard]] TriangleMesh read_off_mesh(const std::string& file, std::string_view bytes);
 
+/// What the content tells.
+[[nodiscard]] bool looks_like_binary_stl(std::string_view bytes);
+[[nodiscard]] bool looks_like_off(std::string_view bytes);
+
 /// Appends the fan of a polygon with three or more corners, all of them valid vertices. Triangles that name a
 /// vertex twice have no area and are left out. Returns how many were added.
 std::size_t append_fan(std::vector<Face>& faces, std::span<const std::uint32_t> corners);
