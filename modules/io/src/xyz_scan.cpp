@@ -259,7 +259,11 @@ class XyzReader {
     TextLines lines(bytes_);
     while (lines.next_filled()) {
       if (lines.number() <= layout_.header_lines || is_comment(lines.line())) continue;
-      const auto words = split(lines.line(), layout_.separator);
+      auto words = split(lines.line(), layout_.separator);
+      // An empty last column looks like a separator at the end of the line.
+      if (layout_.separator != ' ' && words.size() + 1 == layout_.roles.size() &&
+          lines.line().ends_with(layout_.separator))
+        words.emplace_back();
       if (words.size() != layout_.roles.size())
         throw line_error(file_, lines.number(), "has {} columns, but the first point has {}", words.size(),
                          layout_.roles.size());
