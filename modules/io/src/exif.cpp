@@ -160,6 +160,21 @@ Exif read_exif(std::string_view bytes) {
   return exif;
 }
 
+std::string without_orientation(std::string bytes) {
+  const TiffBytes tiff(bytes);
+  if (!tiff.valid()) return bytes;
+  const bool big_endian = bytes.front() == 'M';
+  std::vector<std::pair<std::size_t, std::size_t>> places;  // and sizes
+  for (const TiffBytes::Entry& entry : tiff.entries(tiff.u32(4).value_or(0)))
+    if (entry.tag == tag_orientation && entry.count == 1)
+      places.emplace_back(entry.at, size_of_type(entry.type));
+  for (const auto& [at, size] : places) {
+    bytes.replace(at, size, size, '\0');
+    bytes[big_endian ? at + size - 1 : at] = 1;
+  }
+  return bytes;
+}
+
 std::optional<double> focal_px(const Exif& exif, int width, int height) {
   const double longer = std::max(width, height);
   std::optional<double> focal;

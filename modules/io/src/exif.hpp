@@ -22,6 +22,9 @@ struct Exif {
 /// Reads a TIFF structure. Never fails: what is damaged, missing or out of range stays unset.
 [[nodiscard]] Exif read_exif(std::string_view tiff);
 
+/// A TIFF with its orientation set to 1, so that a decoder which turns pictures by itself leaves it alone.
+[[nodiscard]] std::string without_orientation(std::string tiff);
+
 /// Focal length in pixels for a picture whose longer side is `longer_side_px`: from the 35 mm equivalent (the
 /// film is 36 mm wide), else from the focal length and the focal plane's resolution. Nothing if neither is
 /// there or the value makes no sense (under 0.1 or over 100 times the longer side).

@@ -107,7 +107,9 @@ Opened opened(const std::filesystem::path& file) {
   Opened result;
   result.header = read_picture_header(name, bytes);
   result.exif = read_exif(result.header.exif);
-  result.picture = decode_picture(name, bytes);
+  // OpenCV turns TIFFs by their tag, and them alone.
+  const bool tiff = result.header.format == PictureFormat::tiff;
+  result.picture = decode_picture(name, tiff ? without_orientation(bytes) : bytes);
   result.header.exif = {};
   const Image8& pixels = result.picture.pixels;
   if (static_cast<std::uint64_t>(pixels.width()) != result.header.width ||
