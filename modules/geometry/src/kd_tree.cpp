@@ -25,11 +25,13 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<do
 class NearestSet {
  public:
   using DistanceType = double;
-  explicit NearestSet(std::span<Neighbor> buffer) : buffer_(buffer) {}
+  /// Takes nothing at or beyond `squared_limit`.
+  explicit NearestSet(std::span<Neighbor> buffer, double squared_limit = std::numeric_limits<double>::max())
+      : buffer_(buffer), squared_limit_(squared_limit) {}
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] bool full() const { return count_ == buffer_.size(); }
   [[nodiscard]] double worstDist() const {
-    return full() ? buffer_[count_ - 1].squared_distance : std::numeric_limits<double>::max();
+    return full() ? buffer_[count_ - 1].squared_distance : squared_limit_;
   }
   bool addPoint(double squared_distance, std::uint32_t index) {
     const auto before = [&](const Neighbor& n) {
@@ -45,6 +47,7 @@ class NearestSet {
 
  private:
   std::span<Neighbor> buffer_;
+  double squared_limit_;
   std::size_t count_ = 0;
 };
 
@@ -72,6 +75,14 @@ std::vector<Neighbor> KdTree::nearest(const Eigen::Vector3d& query, std::size_t 
   std::vector<Neighbor> found(std::min(count, impl_->adaptor.points.size()));
   found.resize(nearest(query, std::span<Neighbor>(found)));
   return found;
+}
+
+std::optional<Neighbor> KdTree::nearest_within(const Eigen::Vector3d& query, double radius) const {
+  if (impl_->adaptor.points.empty()) return std::nullopt;
+  Neighbor found{};
+  NearestSet set(std::span(&found, 1), radius * radius);
+  impl_->tree.findNeighbors(set, query.data(), nanoflann::SearchParams());
+  return set.size() > 0 ? std::optional(found) : std::nullopt;
 }
 
 std::vector<Neighbor> KdTree::within(const Eigen::Vector3d& query, double radius) const {

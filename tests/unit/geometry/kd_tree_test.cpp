@@ -43,6 +43,20 @@ TEST(KdTree, AgreesWithBruteForce) {
   }
 }
 
+TEST(KdTree, NearestWithinARadiusIsTheNearestOrNothing) {
+  const auto points = random_points(2000, 1);
+  const KdTree tree(points);
+  for (const Eigen::Vector3d& query : random_points(200, 5)) {
+    const Neighbor nearest = by_brute_force(points, query)[0];
+    const auto found = tree.nearest_within(query, 0.05);
+    EXPECT_EQ(found.has_value(), nearest.squared_distance < 0.05 * 0.05);
+    if (found) {
+      EXPECT_EQ(found->index, nearest.index);
+    }
+  }
+  EXPECT_FALSE(KdTree(std::vector<Eigen::Vector3d>{}).nearest_within({0, 0, 0}, 1).has_value());
+}
+
 TEST(KdTree, TiesGoToTheLowerIndex) {
   const std::vector<Eigen::Vector3d> points(40, Eigen::Vector3d(1, 2, 3));
   const auto found = KdTree(points).nearest({0, 0, 0}, 5);

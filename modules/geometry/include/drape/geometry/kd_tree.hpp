@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,8 @@ class KdTree {
   [[nodiscard]] std::vector<Neighbor> nearest(const Eigen::Vector3d& query, std::size_t count) const;
   /// The same into a buffer of the caller's, for inner loops; returns how many were found.
   std::size_t nearest(const Eigen::Vector3d& query, std::span<Neighbor> found) const;
+  /// The nearest one closer than `radius`, for inner loops: it looks no further than that.
+  [[nodiscard]] std::optional<Neighbor> nearest_within(const Eigen::Vector3d& query, double radius) const;
   /// All within `radius`, nearest first.
   [[nodiscard]] std::vector<Neighbor> within(const Eigen::Vector3d& query, double radius) const;
 
