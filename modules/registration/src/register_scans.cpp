@@ -1,0 +1,130 @@
+#include "drape/registration/register_scans.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "drape/base/parallel.hpp"
+#include "joint_refinement.hpp"
+#include "merged_cloud.hpp"
+#include "pair_quality.hpp"
+#include "placement.hpp"
+#include "scan_surface.hpp"
+
+namespace drape::registration {
+namespace {
+
+using Mask = std::vector<std::uint8_t>;
+
+std::vector<ScanSurface> surfaces_of(std::span<const RangeScan> scans) {
+  std::vector<std::optional<ScanSurface>> built(scans.size());
+  parallel_for(scans.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) built[i].emplace(scans[i]);
+  });
+  std::vector<ScanSurface> surfaces;
+  for (auto& surface : built) surfaces.push_back(std::move(*surface));
+  return surfaces;
+}
+
+std::vector<Rigid3> poses_of(const std::vector<PlacedScan>& scans) {
+  std::vector<Rigid3> poses;
+  for (const PlacedScan& scan : scans) poses.push_back(scan.world_from_scan);
+  return poses;
+}
+
+Mask mask_of(const std::vector<PlacedScan>& scans) {
+  Mask mask(scans.size());
+  std::transform(scans.begin(), scans.end(), mask.begin(),
+                 [](const PlacedScan& s) { return s.placed ? 1 : 0; });
+  return mask;
+}
+
+double median_spacing(const std::vector<ScanSurface>& surfaces) {
+  std::vector<double> spacings;
+  for (const ScanSurface& surface : surfaces)
+    if (surface.size() > 0) spacings.push_back(surface.spacing());
+  if (spacings.empty()) return 0;
+  std::sort(spacings.begin(), spacings.end());
+  return spacings[spacings.size() / 2];
+}
+
+double mean_move(const ScanSurface& surface, const Rigid3& before, const Rigid3& after) {
+  double sum = 0;
+  for (const auto& p : surface.points()) sum += (after * p - before * p).norm();
+  return surface.size() > 0 ? sum / static_cast<double>(surface.size()) : 0.0;
+}
+
+// Joint refinement, taken back if it makes the fit worse.
+void refine(Registration& result, const std::vector<ScanSurface>& surfaces, double reach,
+            const std::vector<FitOnOthers>& before, const RegisterOptions& options,
+            const Progress& progress) {
+  const double spacing = median_spacing(surfaces);
+  const Mask use = mask_of(result.scans);
+  const JointOptions joint{options.max_distance_spacings * spacing, reach, 0.01 * spacing,
+                           options.iterations};
+  JointResult refined = refine_jointly(surfaces, poses_of(result.scans), use, joint, progress);
+  result.iterations = refined.iterations;
+  const auto after = measure_fits(surfaces, refined.world_from_scan, use, reach);
+  if (truncated_mean_square(after, reach) > truncated_mean_square(before, reach)) {
+    result.converged = false;
+    return;
+  }
+  result.converged = refined.converged;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    result.scans[i].world_from_scan = refined.world_from_scan[i];
+}
+
+void report_quality(Registration& result, const std::vector<FitOnOthers>& before,
+                    const std::vector<FitOnOthers>& fits) {
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    PlacedScan& scan = result.scans[i];
+    scan.rms_m = fits[i].any.rms();
+    scan.overlap = fits[i].any.overlap();
+    if (scan.placed && fits.size() > 1 && fits[i].any.matched == 0)
+      scan.reason += "; it overlaps no other scan";
+    for (std::size_t j = i + 1; j < fits.size(); ++j) {
+      const auto both = [&](const std::vector<FitOnOthers>& all) {
+        Fit sum = all[i].each[j];
+        sum.matched += all[j].each[i].matched;
+        sum.squares += all[j].each[i].squares;
+        return sum;
+      };
+      const double overlap = std::max(fits[i].each[j].overlap(), fits[j].each[i].overlap());
+      if (overlap > 0) result.pairs.push_back({i, j, overlap, both(fits).rms(), both(before).rms()});
+    }
+  }
+}
+
+}  // namespace
+
+Registration register_scans(std::span<const RangeScan> scans,
+                            std::span<const std::optional<Rigid3>> given_world_from_scan,
+                            const RegisterOptions& options, const Progress& progress) {
+  assert(scans.size() == given_world_from_scan.size());
+  Registration result;
+  progress.update(0, "preparing the scans");
+  const std::vector<ScanSurface> surfaces = surfaces_of(scans);
+  const double reach = fine_reach(surfaces);
+  result.scans = place_given(scans, given_world_from_scan);
+  if (options.method == Method::refine && reach > 0)
+    result.scans =
+        place_by_icp(std::move(result.scans), scans, surfaces, reach, options, progress.part(0.1, 0.4));
+
+  const std::vector<Rigid3> at_start = poses_of(result.scans);
+  const auto before = measure_fits(surfaces, at_start, mask_of(result.scans), reach);
+  if (options.method == Method::refine && reach > 0)
+    refine(result, surfaces, reach, before, options, progress.part(0.4, 0.9));
+
+  const Mask use = mask_of(result.scans);
+  report_quality(result, before, measure_fits(surfaces, poses_of(result.scans), use, reach));
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    result.scans[i].moved_m = mean_move(surfaces[i], at_start[i], result.scans[i].world_from_scan);
+  progress.update(0.9, "merging the scans");
+  result.merged = thinned(merged_cloud(scans, poses_of(result.scans), use),
+                          options.thin_spacings * median_spacing(surfaces));
+  progress.update(1);
+  return result;
+}
+
+}  // namespace drape::registration

@@ -1,0 +1,95 @@
+#include "scan_surface.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "drape/ingest/estimate_normals.hpp"
+#include "drape/ingest/point_spacing.hpp"
+#include "drape/ingest/spatial_order.hpp"
+
+namespace drape::registration {
+namespace {
+
+constexpr std::size_t most_points = 100'000;
+constexpr std::size_t least_points = 20;
+constexpr double least_normal_cosine = 0.70710678118654752;
+
+bool span_a_surface(const std::vector<Eigen::Vector3d>& points) {
+  if (points.size() < least_points) return false;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& p : points) mean += p;
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose();
+  const Eigen::Vector3d extents = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues();
+  return extents[1] > 1e-6 * extents[2];
+}
+
+// Median distance of sampled points to the planes of their neighbours, as a deviation.
+double plane_noise(const ScanSurface& surface, const KdTree& tree) {
+  std::vector<double> distances;
+  std::vector<Neighbor> found(5);
+  for (const std::uint32_t i : surface.sample(2000)) {
+    const std::size_t count = tree.nearest(surface.points()[i], found);
+    for (std::size_t n = 1; n < count; ++n) {
+      const std::uint32_t j = found[n].index;
+      distances.push_back(std::abs(surface.normals()[j].dot(surface.points()[i] - surface.points()[j])));
+    }
+  }
+  if (distances.empty()) return 0;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return 1.4826 * *middle / std::sqrt(2.0);  // the difference of two points' errors
+}
+
+}  // namespace
+
+ScanSurface::ScanSurface(const RangeScan& scan) : view_(scan.view), box_(bounding_box(scan.cloud.positions)) {
+  const PointCloud& cloud = scan.cloud;
+  const bool has_normals = cloud.normals.size() == cloud.size();
+  const std::vector<Eigen::Vector3f> estimated =
+      has_normals ? std::vector<Eigen::Vector3f>() : ingest::estimate_normals(scan);
+  const std::vector<Eigen::Vector3f>& normals = has_normals ? cloud.normals : estimated;
+  const double full_spacing = scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan);
+  const std::size_t stride = std::max<std::size_t>(1, (cloud.size() + most_points - 1) / most_points);
+  spacing_ = full_spacing * std::sqrt(static_cast<double>(stride));
+  const ingest::LocalSpacing local(scan, spacing_);
+
+  const std::vector<std::uint32_t> order = ingest::morton_order(cloud.positions);
+  for (std::size_t k = 0; k < order.size(); k += stride) {
+    const std::uint32_t i = order[k];
+    points_.push_back(cloud.positions[i]);
+    normals_.push_back(normals[i].cast<double>().normalized());
+    confidences_.push_back(cloud.confidences.empty() ? 1.0 : static_cast<double>(cloud.confidences[i]));
+    spacings_.push_back(local.at(cloud.positions[i]));
+  }
+  tree_.emplace(points_);
+  is_surface_ = spacing_ > 0 && span_a_surface(points_);
+  noise_ = plane_noise(*this, *tree_);
+}
+
+std::vector<std::uint32_t> ScanSurface::sample(std::size_t count) const {
+  std::vector<std::uint32_t> indices;
+  const std::size_t taken = std::min(count, points_.size());
+  for (std::size_t k = 0; k < taken; ++k)
+    indices.push_back(static_cast<std::uint32_t>(k * points_.size() / taken));
+  return indices;
+}
+
+std::optional<SurfaceMatch> ScanSurface::match(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                                               double reach) const {
+  if (box_.squaredExteriorDistance(point) >= reach * reach) return std::nullopt;
+  const auto nearest = tree_->nearest_within(point, reach);
+  if (!nearest) return std::nullopt;
+  const std::uint32_t i = nearest->index;
+  if (normals_[i].dot(normal) < least_normal_cosine) return std::nullopt;
+  const double distance = normals_[i].dot(point - points_[i]);
+  const double aside = std::sqrt(std::max(0.0, nearest->squared_distance - distance * distance));
+  // Between samples the nearest is at most 0.7 spacings aside; a normal that is off adds to it with the
+  // distance.
+  if (aside > 1.5 * spacings_[i] + 0.5 * std::abs(distance)) return std::nullopt;
+  return SurfaceMatch{points_[i], normals_[i], distance, confidences_[i]};
+}
+
+}  // namespace drape::registration

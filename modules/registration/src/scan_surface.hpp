@@ -1,0 +1,66 @@
+// A scan as a surface that points of other scans can be compared with.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "drape/geometry/bounding_box.hpp"
+#include "drape/geometry/kd_tree.hpp"
+#include "drape/geometry/range_scan.hpp"
+
+namespace drape::registration {
+
+/// A place on a surface that a point of another scan belongs to.
+struct SurfaceMatch {
+  Eigen::Vector3d point;
+  Eigen::Vector3d normal;
+  double distance;  // of the point to the plane there, signed
+  double weight;    // confidence of the surface
+};
+
+/// Oriented points of one scan, in its own frame, evenly thinned where there are very many.
+class ScanSurface {
+ public:
+  explicit ScanSurface(const RangeScan& scan);
+
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& normals() const { return normals_; }
+  [[nodiscard]] const std::vector<double>& confidences() const { return confidences_; }
+  [[nodiscard]] const ScanView& view() const { return view_; }
+  [[nodiscard]] const BoundingBox& box() const { return box_; }
+  /// Median distance of the points that are kept.
+  [[nodiscard]] double spacing() const { return spacing_; }
+  /// Deviation of points from the planes of their neighbours.
+  [[nodiscard]] double noise() const { return noise_; }
+  /// Whether the points span a surface: not if there are too few, or they lie on a line.
+  [[nodiscard]] bool is_surface() const { return is_surface_; }
+
+  /// Indices of up to `count` points, evenly spread.
+  [[nodiscard]] std::vector<std::uint32_t> sample(std::size_t count) const;
+
+  /// The place on this surface that `point` (in this scan's frame, with `normal`) lies on or near: the
+  /// nearest point, if it is within `reach`, its normal is within 45 degrees, and `point` does not lie
+  /// beside the surface's border (Turk and Levoy 1994).
+  [[nodiscard]] std::optional<SurfaceMatch> match(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                                                  double reach) const;
+
+ private:
+  std::vector<Eigen::Vector3d> points_;  // in Morton order
+  std::vector<Eigen::Vector3d> normals_;
+  std::vector<double> confidences_;
+  std::vector<double> spacings_;
+  ScanView view_;
+  BoundingBox box_;
+  std::optional<KdTree> tree_;
+  double spacing_ = 0;
+  double noise_ = 0;
+  bool is_surface_ = false;
+};
+
+}  // namespace drape::registration
