@@ -14,15 +14,9 @@ namespace drape::registration {
 namespace {
 
 // In right pairs at most 2 % of the points lie where the other scan looked through (measured on real scans).
-constexpr double most_seen_through = 0.02;
-constexpr std::size_t source_points = 2000;
-constexpr std::size_t target_points = 40'000;
-
-struct Candidate {
-  Rigid3 world_from_scan;
-  Fit fit;
-  double seen_through = 0;
-};
+constexpr double most_seen_through_share = 0.02;
+constexpr std::size_t source_points = 1000;
+constexpr std::size_t target_points = 20'000;
 
 std::vector<std::uint8_t> placed_mask(const std::vector<PlacedScan>& placed) {
   std::vector<std::uint8_t> mask(placed.size());
@@ -71,36 +65,46 @@ std::vector<Rigid3> starts(const std::vector<PlacedScan>& placed, std::size_t wh
   return result;
 }
 
-Candidate judged(const Rigid3& pose, std::size_t which, const std::vector<PlacedScan>& placed,
-                 std::span<const ScanSurface> surfaces, double reach) {
+// Of the points of the scan and of each placed one, the largest share that lies where the other looked
+// through.
+double most_seen_through(const Rigid3& pose, std::size_t which, const std::vector<PlacedScan>& placed,
+                         std::span<const ScanSurface> surfaces, double tolerance) {
+  double share = 0;
+  for (std::size_t other = 0; other < placed.size(); ++other) {
+    if (!placed[other].placed || !surfaces[other].is_surface()) continue;
+    const Rigid3 other_from_this = placed[other].world_from_scan.inverse() * pose;
+    share = std::max(
+        {share, seen_through_share(surfaces[which], surfaces[other], other_from_this, tolerance),
+         seen_through_share(surfaces[other], surfaces[which], other_from_this.inverse(), tolerance)});
+  }
+  return share;
+}
+
+Fit fit_at(const Rigid3& pose, std::size_t which, const std::vector<PlacedScan>& placed,
+           std::span<const ScanSurface> surfaces, double reach) {
   std::vector<Rigid3> poses;
   for (const PlacedScan& scan : placed) poses.push_back(scan.world_from_scan);
   poses[which] = pose;
-  Candidate candidate{pose, fit_on_others(which, surfaces, poses, placed_mask(placed), reach).any, 0};
-  for (std::size_t other = 0; other < placed.size(); ++other) {
-    if (!placed[other].placed) continue;
-    const Rigid3 other_from_this = poses[other].inverse() * pose;
-    candidate.seen_through = std::max(
-        {candidate.seen_through,
-         seen_through_share(surfaces[which], surfaces[other], other_from_this, 2 * reach),
-         seen_through_share(surfaces[other], surfaces[which], other_from_this.inverse(), 2 * reach)});
-  }
-  return candidate;
+  return fit_on_others(which, surfaces, poses, placed_mask(placed), reach).any;
 }
 
-// Empty if the candidate may be taken.
-std::string objection(const Candidate& candidate, double most_rms, const RegisterOptions& options) {
-  const double overlap_percent = 100 * candidate.fit.overlap();
-  if (overlap_percent < options.min_overlap_percent || candidate.fit.matched == 0)
+// Empty if the pose may be taken.
+std::string objection(const Fit& fit, const Rigid3& pose, std::size_t which,
+                      const std::vector<PlacedScan>& placed, std::span<const ScanSurface> surfaces,
+                      double reach, const RegisterOptions& options) {
+  const double overlap_percent = 100 * fit.overlap();
+  if (overlap_percent < options.min_overlap_percent || fit.matched == 0)
     return fmt::format("only {:.0f} % of its points came to lie on placed scans (min_overlap_percent: {:g})",
                        overlap_percent, options.min_overlap_percent);
-  if (candidate.fit.rms() > most_rms)
-    return fmt::format(
-        "its points came to lie {:.3g} off the placed scans, more than {:.3g} (max_rms_spacings: {:g})",
-        candidate.fit.rms(), most_rms, options.max_rms_spacings);
-  if (candidate.seen_through > most_seen_through)
-    return fmt::format("{:.0f} % of its points came to lie where another scan saw through",
-                       100 * candidate.seen_through);
+  const double rms_spacings = fit.rms() / surfaces[which].spacing();
+  if (rms_spacings > options.max_rms_spacings)
+    return fmt::format("its points came to lie {:.2f} spacings off the placed scans (max_rms_spacings: {:g})",
+                       rms_spacings, options.max_rms_spacings);
+  // A pixel's depth is certain to within the reach on either side.
+  const double seen_through = most_seen_through(pose, which, placed, surfaces, 2 * reach);
+  if (seen_through > most_seen_through_share)
+    return fmt::format("{:.0f} % of the points came to lie where another scan looked through",
+                       100 * seen_through);
   return {};
 }
 
@@ -112,17 +116,19 @@ PlacedScan try_to_place(std::size_t which, const std::vector<PlacedScan>& placed
   const OrientedPoints target = all_placed(placed, surfaces);
   const double size = surfaces[which].box().diagonal().norm();
   const std::array<double, 3> reaches{0.3 * size, 0.06 * size, reach};
-  const double most_rms = options.max_rms_spacings * surfaces[which].spacing();
   double best_overlap = -1;
   for (const Rigid3& start : starts(placed, which)) {
-    const Candidate candidate =
-        judged(pairwise_icp(source, target, start, reaches), which, placed, surfaces, reach);
-    const std::string against = objection(candidate, most_rms, options);
-    if (!against.empty() && !scan.placed) scan.reason = "no pose was given, and none was found: " + against;
-    if (!against.empty() || candidate.fit.overlap() <= best_overlap) continue;
-    best_overlap = candidate.fit.overlap();
+    const Rigid3 pose = pairwise_icp(source, target, start, reaches);
+    const Fit fit = fit_at(pose, which, placed, surfaces, reach);
+    if (fit.overlap() <= best_overlap) continue;
+    const std::string against = objection(fit, pose, which, placed, surfaces, reach, options);
+    if (!against.empty()) {
+      if (!scan.placed) scan.reason = "no pose was given, and none was found: " + against;
+      continue;
+    }
+    best_overlap = fit.overlap();
     scan.placed = true;
-    scan.world_from_scan = candidate.world_from_scan;
+    scan.world_from_scan = pose;
     scan.reason = fmt::format("no pose was given: found by fitting it to the placed scans ({:.0f} % overlap)",
                               100 * best_overlap);
   }
@@ -135,8 +141,8 @@ std::string label(const RangeScan& scan) {
   return scan.index_in_file == 0 ? scan.file : fmt::format("{} (scan {})", scan.file, scan.index_in_file + 1);
 }
 
-std::vector<PlacedScan> place_given(std::span<const RangeScan> scans,
-                                    std::span<const std::optional<Rigid3>> given_world_from_scan) {
+GivenPlacement place_given(std::span<const RangeScan> scans,
+                           std::span<const std::optional<Rigid3>> given_world_from_scan) {
   std::vector<PlacedScan> placed(scans.size());
   bool any_pose = false;
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -155,11 +161,12 @@ std::vector<PlacedScan> place_given(std::span<const RangeScan> scans,
   const auto first =
       std::find_if(scans.begin(), scans.end(), [](const RangeScan& s) { return !s.cloud.empty(); });
   if (!any_pose && first != scans.end()) {
-    PlacedScan& world = placed[static_cast<std::size_t>(first - scans.begin())];
-    world.placed = true;
-    world.reason = "no pose was given: its own frame is the world";
+    const auto world = static_cast<std::size_t>(first - scans.begin());
+    placed[world].placed = true;
+    placed[world].reason = "no pose was given: its own frame is the world";
+    return {placed, world};
   }
-  return placed;
+  return {placed, std::nullopt};
 }
 
 std::vector<PlacedScan> place_by_icp(std::vector<PlacedScan> placed, std::span<const RangeScan> scans,

@@ -17,10 +17,15 @@ namespace drape::registration {
 /// "bun045.ply", or "room.e57 (scan 3)" where it is not the first of its file.
 [[nodiscard]] std::string label(const RangeScan& scan);
 
+struct GivenPlacement {
+  std::vector<PlacedScan> scans;
+  std::optional<std::size_t> world_scan;  // the scan whose frame is the world, where no pose was given at all
+};
+
 /// The poses that are given, else stated by the scans themselves; without any, the first scan with points is
 /// the world. Scans without pose or points are not placed.
-[[nodiscard]] std::vector<PlacedScan> place_given(
-    std::span<const RangeScan> scans, std::span<const std::optional<Rigid3>> given_world_from_scan);
+[[nodiscard]] GivenPlacement place_given(std::span<const RangeScan> scans,
+                                         std::span<const std::optional<Rigid3>> given_world_from_scan);
 
 /// Tries each scan that is not placed against all that are: pairwise ICP from the poses of the nearest
 /// placed scans in the list and from identity; a result is taken if the overlap, the distance and the line

@@ -43,7 +43,7 @@ Mask mask_of(const std::vector<PlacedScan>& scans) {
 double median_spacing(const std::vector<ScanSurface>& surfaces) {
   std::vector<double> spacings;
   for (const ScanSurface& surface : surfaces)
-    if (surface.size() > 0) spacings.push_back(surface.spacing());
+    if (surface.size() > 0) spacings.push_back(surface.scan_spacing());
   if (spacings.empty()) return 0;
   std::sort(spacings.begin(), spacings.end());
   return spacings[spacings.size() / 2];
@@ -57,8 +57,8 @@ double mean_move(const ScanSurface& surface, const Rigid3& before, const Rigid3&
 
 // Joint refinement, taken back if it makes the fit worse.
 void refine(Registration& result, const std::vector<ScanSurface>& surfaces, double reach,
-            const std::vector<FitOnOthers>& before, const RegisterOptions& options,
-            const Progress& progress) {
+            const std::vector<FitOnOthers>& before, std::optional<std::size_t> world_scan,
+            const RegisterOptions& options, const Progress& progress) {
   const double spacing = median_spacing(surfaces);
   const Mask use = mask_of(result.scans);
   const JointOptions joint{options.max_distance_spacings * spacing, reach, 0.01 * spacing,
@@ -66,13 +66,18 @@ void refine(Registration& result, const std::vector<ScanSurface>& surfaces, doub
   JointResult refined = refine_jointly(surfaces, poses_of(result.scans), use, joint, progress);
   result.iterations = refined.iterations;
   const auto after = measure_fits(surfaces, refined.world_from_scan, use, reach);
-  if (truncated_mean_square(after, reach) > truncated_mean_square(before, reach)) {
+  // The measure differs from what was minimised (weights, and one distance a point): a tenth is no loss.
+  if (truncated_mean_square(after, reach) > 1.1 * truncated_mean_square(before, reach)) {
     result.converged = false;
     return;
   }
   result.converged = refined.converged;
+  // Refinement keeps the mean of the poses; where one scan defines the world, the world stays with that scan.
+  const Rigid3 world_from_refined = world_scan ? result.scans[*world_scan].world_from_scan *
+                                                     refined.world_from_scan[*world_scan].inverse()
+                                               : Rigid3::Identity();
   for (std::size_t i = 0; i < surfaces.size(); ++i)
-    result.scans[i].world_from_scan = refined.world_from_scan[i];
+    if (use[i] != 0) result.scans[i].world_from_scan = world_from_refined * refined.world_from_scan[i];
 }
 
 void report_quality(Registration& result, const std::vector<FitOnOthers>& before,
@@ -106,7 +111,8 @@ Registration register_scans(std::span<const RangeScan> scans,
   progress.update(0, "preparing the scans");
   const std::vector<ScanSurface> surfaces = surfaces_of(scans);
   const double reach = fine_reach(surfaces);
-  result.scans = place_given(scans, given_world_from_scan);
+  const GivenPlacement given = place_given(scans, given_world_from_scan);
+  result.scans = given.scans;
   if (options.method == Method::refine && reach > 0)
     result.scans =
         place_by_icp(std::move(result.scans), scans, surfaces, reach, options, progress.part(0.1, 0.4));
@@ -114,7 +120,7 @@ Registration register_scans(std::span<const RangeScan> scans,
   const std::vector<Rigid3> at_start = poses_of(result.scans);
   const auto before = measure_fits(surfaces, at_start, mask_of(result.scans), reach);
   if (options.method == Method::refine && reach > 0)
-    refine(result, surfaces, reach, before, options, progress.part(0.4, 0.9));
+    refine(result, surfaces, reach, before, given.world_scan, options, progress.part(0.4, 0.9));
 
   const Mask use = mask_of(result.scans);
   report_quality(result, before, measure_fits(surfaces, poses_of(result.scans), use, reach));

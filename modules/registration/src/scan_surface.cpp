@@ -51,9 +51,9 @@ ScanSurface::ScanSurface(const RangeScan& scan) : view_(scan.view), box_(boundin
   const std::vector<Eigen::Vector3f> estimated =
       has_normals ? std::vector<Eigen::Vector3f>() : ingest::estimate_normals(scan);
   const std::vector<Eigen::Vector3f>& normals = has_normals ? cloud.normals : estimated;
-  const double full_spacing = scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan);
+  scan_spacing_ = scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan);
   const std::size_t stride = std::max<std::size_t>(1, (cloud.size() + most_points - 1) / most_points);
-  spacing_ = full_spacing * std::sqrt(static_cast<double>(stride));
+  spacing_ = scan_spacing_ * std::sqrt(static_cast<double>(stride));
   const ingest::LocalSpacing local(scan, spacing_);
 
   const std::vector<std::uint32_t> order = ingest::morton_order(cloud.positions);

@@ -36,6 +36,8 @@ class ScanSurface {
   [[nodiscard]] const BoundingBox& box() const { return box_; }
   /// Median distance of the points that are kept.
   [[nodiscard]] double spacing() const { return spacing_; }
+  /// Median distance of all the scan's points.
+  [[nodiscard]] double scan_spacing() const { return scan_spacing_; }
   /// Deviation of points from the planes of their neighbours.
   [[nodiscard]] double noise() const { return noise_; }
   /// Whether the points span a surface: not if there are too few, or they lie on a line.
@@ -59,6 +61,7 @@ class ScanSurface {
   BoundingBox box_;
   std::optional<KdTree> tree_;
   double spacing_ = 0;
+  double scan_spacing_ = 0;
   double noise_ = 0;
   bool is_surface_ = false;
 };
