@@ -107,7 +107,7 @@ std::vector<Vector6> solve(const std::vector<OrderedPair>& pairs, const std::vec
   for (const Matrix6& block : diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
   std::vector<Vector6> motions(scans, Vector6::Zero());
   if (!(largest > 0)) return motions;
-  const Matrix6 damping = 1e-6 * largest * Matrix6::Identity();
+  const Matrix6 damping = 1e-4 * largest * Matrix6::Identity();
   for (std::size_t i = 0; i < scans; ++i) add_block(i, i, diagonal[i] + damping);
   Eigen::SparseMatrix<double> H(size, size);
   H.setFromTriplets(entries.begin(), entries.end());

@@ -73,9 +73,9 @@ void refine(Registration& result, const std::vector<ScanSurface>& surfaces, doub
   }
   result.converged = refined.converged;
   // Refinement keeps the mean of the poses; where one scan defines the world, the world stays with that scan.
-  const Rigid3 world_from_refined = world_scan ? result.scans[*world_scan].world_from_scan *
-                                                     refined.world_from_scan[*world_scan].inverse()
-                                               : Rigid3::Identity();
+  const Rigid3 world_from_refined =
+      world_scan ? result.scans[*world_scan].world_from_scan * refined.world_from_scan[*world_scan].inverse()
+                 : Rigid3::Identity();
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (use[i] != 0) result.scans[i].world_from_scan = world_from_refined * refined.world_from_scan[i];
 }

@@ -36,9 +36,9 @@ TEST(Refine, BringsPerturbedScansBackWithinTheNoise) {
       const Registration start = register_scans(shape.scans, given, {.method = Method::given}, {});
       const Registration found = register_scans(shape.scans, given, {}, {});
       EXPECT_GT(test::relative_error(shape, start), 1.5) << shape_case.name;
-      // Over a thousand matches a pair average the noise away; facets against curved surface leave a few
-      // thousandths of the spacing, the rest is how much worse the least certain direction is.
-      EXPECT_LT(test::relative_error(shape, found), noise / 2)
+      // A thousand matches a pair average the noise away (to 0.005); the rest is what facets and rounded
+      // edges leave, worst at the corner of the box.
+      EXPECT_LT(test::relative_error(shape, found), 0.7 * noise)
           << shape_case.name << (diverging ? ", diverging" : "");
       EXPECT_TRUE(found.converged) << shape_case.name;
       for (const PlacedScan& scan : found.scans) {
