@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iostream>
+#include <mutex>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -29,6 +31,38 @@ std::uint8_t to_byte(std::uint8_t value) {
 std::uint8_t to_byte(std::uint16_t value) {
   return static_cast<std::uint8_t>((value * 255U + 32767U) / 65535U);
 }
+
+/// While one lives, std::cerr says nothing: OpenCV's imdecode reports there what it also returns. (drape's
+/// log does not use that stream.)
+class QuietStream {
+ public:
+  QuietStream() {
+    const std::scoped_lock lock(mutex());
+    if (count()++ == 0) kept() = std::cerr.rdbuf(nullptr);
+  }
+  ~QuietStream() {
+    const std::scoped_lock lock(mutex());
+    if (--count() > 0) return;
+    std::cerr.rdbuf(kept());
+    std::cerr.clear();
+  }
+  QuietStream(const QuietStream&) = delete;
+  QuietStream& operator=(const QuietStream&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex m;
+    return m;
+  }
+  static int& count() {
+    static int n = 0;
+    return n;
+  }
+  static std::streambuf*& kept() {
+    static std::streambuf* buffer = nullptr;
+    return buffer;
+  }
+};
 
 template <class Sample>
 DecodedPicture converted(const cv::Mat& mat) {
@@ -89,6 +123,7 @@ DecodedPicture decode_picture(const std::string& file, std::string_view bytes) {
   try {
     const cv::Mat raw(1, static_cast<int>(std::min<std::size_t>(bytes.size(), INT_MAX)), CV_8U,
                       const_cast<char*>(bytes.data()));
+    const QuietStream quiet;
     mat = cv::imdecode(raw, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     throw input_error("{}: the picture is damaged: it cannot be decoded", file);
