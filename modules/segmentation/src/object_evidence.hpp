@@ -1,0 +1,24 @@
+// How much each pixel stands out from what surrounds the object.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "lab_image.hpp"
+
+namespace drape::segmentation {
+
+/// What the user said, in pixels of the picture at hand; clipped to it.
+struct Hints {
+  std::optional<std::array<int, 4>> box;    // left, top, right, bottom; the last two exclusive
+  std::optional<std::array<int, 2>> click;  // x, y
+};
+
+/// 0 (background) .. 1 (object) per pixel, constant over patches of like colour; all 0 if the picture has no
+/// contrast. Background is what the border of the picture (or of the box) hangs together with: robust
+/// background detection and the least-squares problem of Zhu, Liang, Wei, Sun, "Saliency Optimization from
+/// Robust Background Detection" (CVPR 2014); a click adds what lies near it in geodesic colour distance to
+/// the foreground.
+[[nodiscard]] ImageF object_evidence(const ImageF& lab, const Hints& hints);
+
+}  // namespace drape::segmentation

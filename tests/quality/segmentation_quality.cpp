@@ -1,0 +1,179 @@
+// Intersection over union of stencils with hand-made masks of nine photos: unaided, from a box, from a click.
+// Usage: segmentation_quality [option=value ...], options as in the `segment` section of a configuration.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "drape/base/error.hpp"
+#include "drape/segmentation/segment_photo.hpp"
+#include "support.hpp"
+
+namespace drape {
+namespace {
+
+namespace fs = std::filesystem;
+using segmentation::Method;
+using segmentation::PhotoRegion;
+using segmentation::SegmentOptions;
+
+Image8 read(const fs::path& file, int mode) {
+  cv::Mat pixels = cv::imread(file.string(), mode);
+  if (pixels.empty()) throw input_error("{}: cannot be read", file.string());
+  if (pixels.channels() == 3) cv::cvtColor(pixels, pixels, cv::COLOR_BGR2RGB);
+  Image8 image(pixels.cols, pixels.rows, pixels.channels());
+  std::copy_n(pixels.data, image.data().size(), image.data().begin());
+  return image;
+}
+
+struct Case {
+  std::string name;
+  Image8 rgb;
+  Image8 truth;  // 255 object, 0 background, 128 ignored
+  std::array<double, 4> box{};
+  std::array<double, 2> click{};
+};
+
+Case load(const fs::path& photo) {
+  Case c;
+  c.name = photo.stem().string();
+  c.rgb = read(photo, cv::IMREAD_COLOR);
+  c.truth = read(photo.parent_path() / (c.name + "_gt.png"), cv::IMREAD_GRAYSCALE);
+  cv::Mat object(c.truth.height(), c.truth.width(), CV_8U, c.truth.data().data());
+  object = object == 255;
+  const cv::Rect box = cv::boundingRect(object);
+  c.box = {double(box.x), double(box.y), double(box.width), double(box.height)};
+  cv::Mat depth;
+  cv::distanceTransform(object, depth, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::Point deepest;
+  cv::minMaxLoc(depth, nullptr, nullptr, nullptr, &deepest);
+  c.click = {deepest.x + 0.5, deepest.y + 0.5};
+  return c;
+}
+
+std::array<double, 4> grown(const Case& c, double share) {
+  return {c.box[0] - share * c.box[2], c.box[1] - share * c.box[3], c.box[2] * (1 + 2 * share),
+          c.box[3] * (1 + 2 * share)};
+}
+
+double intersection_over_union(const Image8& found, const Image8& truth) {
+  double both = 0;
+  double either = 0;
+  for (std::size_t i = 0; i < truth.data().size(); ++i) {
+    if (truth.data()[i] == 128) continue;
+    const bool a = found.data()[i] == stencil::object;
+    const bool b = truth.data()[i] == 255;
+    both += a && b;
+    either += a || b;
+  }
+  return either > 0 ? both / either : 0;
+}
+
+struct Row {
+  std::string name;
+  std::function<PhotoRegion(const Case&)> region;
+};
+
+void measure(const std::vector<Case>& cases, const SegmentOptions& options, const std::string& method,
+             const std::string& only, const std::string& save_folder) {
+  const std::vector<Row> rows = {
+      {"unaided", [](const Case&) { return PhotoRegion{}; }},
+      {"box",
+       [](const Case& c) {
+         return PhotoRegion{c.box, {}};
+       }},
+      {"box +20 %",
+       [](const Case& c) {
+         return PhotoRegion{grown(c, 0.2), {}};
+       }},
+      {"click",
+       [](const Case& c) {
+         return PhotoRegion{{}, c.click};
+       }},
+  };
+  for (const Row& row : rows) {
+    if (row.name.find(only) != 0) continue;
+    std::vector<double> scores;
+    std::string each;
+    cv::Mat sheet;
+    const auto start = std::chrono::steady_clock::now();
+    for (const Case& c : cases) {
+      const auto found = segmentation::segment_photo(c.rgb, {}, row.region(c), options, 1);
+      scores.push_back(intersection_over_union(found.stencil, c.truth));
+      each += fmt::format(" {:.2f}({:.2f})", scores.back(), found.confidence);
+      if (save_folder.empty()) continue;
+      cv::Mat picture(c.rgb.height(), c.rgb.width(), CV_8UC3);
+      const Image8 painted = segmentation::paint_labels(found);
+      for (int y = 0; y < c.rgb.height(); ++y)
+        for (int x = 0; x < c.rgb.width(); ++x)
+          for (int k = 0; k < 3; ++k)
+            picture.at<cv::Vec3b>(y, x)[k] = found.stencil.at(x, y) == stencil::object
+                                                 ? c.rgb.at(x, y, 2 - k)
+                                                 : static_cast<std::uint8_t>(c.rgb.at(x, y, 2 - k) / 4);
+      cv::Mat labels(c.rgb.height(), c.rgb.width(), CV_8UC3,
+                     const_cast<std::uint8_t*>(painted.data().data()));
+      cv::Mat both;
+      cv::cvtColor(labels, labels, cv::COLOR_RGB2BGR);
+      cv::hconcat(picture, labels, both);
+      cv::resize(both, both, {700, 240});
+      if (sheet.empty())
+        sheet = both;
+      else
+        cv::vconcat(sheet, both, sheet);
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!sheet.empty())
+      cv::imwrite(fmt::format("{}/{}-{}.png", save_folder, method, row.name.substr(0, row.name.find('%'))),
+                  sheet);
+    std::vector<double> sorted = scores;
+    std::sort(sorted.begin(), sorted.end());
+    fmt::print("{:8} {:10} median IoU {:.3f} worst {:.2f}  {:.2f} s a photo |{}\n", method, row.name,
+               sorted[sorted.size() / 2], sorted.front(), seconds / static_cast<double>(cases.size()), each);
+  }
+}
+
+}  // namespace
+}  // namespace drape
+
+int main(int count, char** arguments) {
+  using namespace drape;
+  if (!test::have_data("segmentation")) {
+    fmt::print("skipped: needs segmentation/ of DRAPE_TEST_DATA\n");
+    return 0;
+  }
+  SegmentOptions options;
+  std::string only;
+  std::string save_folder;
+  for (int i = 1; i < count; ++i) {
+    const std::string argument = arguments[i];
+    const std::size_t equals = argument.find('=');
+    if (argument.substr(0, equals) == "only") only = argument.substr(equals + 1);
+    if (argument.substr(0, equals) == "save") save_folder = argument.substr(equals + 1);
+    for (const Option& option : options_of(options))
+      if (option.name == argument.substr(0, equals)) {
+        const auto value = parse_option(option, argument.substr(equals + 1));
+        if (const auto* problem = std::get_if<std::string>(&value)) {
+          fmt::print("{}: {}\n", argument, *problem);
+          return 64;
+        }
+        option.assign(std::get<OptionValue>(value));
+      }
+  }
+  std::vector<Case> cases;
+  std::vector<fs::path> photos;
+  for (const auto& entry : fs::directory_iterator(test::data("segmentation")))
+    if (entry.path().extension() != ".png") photos.push_back(entry.path());
+  std::sort(photos.begin(), photos.end());
+  for (const fs::path& photo : photos) cases.push_back(load(photo));
+  for (const auto& [method, name] : {std::pair{Method::kmeans, "kmeans"}, {Method::grabcut, "grabcut"}}) {
+    options.method = method;
+    measure(cases, options, name, only, save_folder);
+  }
+  return 0;
+}
