@@ -1,0 +1,59 @@
+#include "bodies.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "drape/rendering/renderer.hpp"
+#include "support.hpp"
+
+namespace drape::alignment {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+
+void append(TriangleMesh& mesh, const TriangleMesh& part) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const Face& f : part.faces) mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+}
+
+}  // namespace
+
+TriangleMesh knobbed_brick() {
+  TriangleMesh mesh = test::box({-1, -0.6, -0.35}, {1, 0.6, 0.35});
+  append(mesh, test::sphere(0.32, 8, {0.8, 0.75, 0.2}));
+  append(mesh, test::box({-0.9, -0.2, 0.35}, {-0.5, 0.3, 1.0}));
+  return mesh;
+}
+
+Camera view_of(const Eigen::Vector3d& euler_deg, double unit_px, double cx, double cy,
+               Camera::Projection projection, double fov_deg) {
+  Camera camera;
+  camera.projection = projection;
+  camera.width = 160;
+  camera.height = 120;
+  const bool perspective = projection == Camera::Projection::perspective;
+  const double focal_px = perspective ? camera.width / 2.0 / std::tan(fov_deg * radians / 2) : unit_px;
+  camera.K << focal_px, 0, camera.width / 2.0, 0, focal_px, camera.height / 2.0, 0, 0, 1;
+  camera.camera_from_world.linear() = (Eigen::AngleAxisd(euler_deg.z() * radians, Eigen::Vector3d::UnitZ()) *
+                                       Eigen::AngleAxisd(euler_deg.y() * radians, Eigen::Vector3d::UnitY()) *
+                                       Eigen::AngleAxisd(euler_deg.x() * radians, Eigen::Vector3d::UnitX()))
+                                          .toRotationMatrix();
+  const double depth = perspective ? focal_px / unit_px : 5;
+  const double per_px = perspective ? depth / focal_px : 1 / unit_px;
+  camera.camera_from_world.translation() << (cx - camera.width / 2.0) * per_px,
+      (cy - camera.height / 2.0) * per_px, depth;
+  return camera;
+}
+
+Image8 stencil_of(const TriangleMesh& mesh, const Camera& camera) {
+  return rendering::Renderer(mesh).stencil(camera);
+}
+
+double rotation_between_deg(const Camera& a, const Camera& b) {
+  return Eigen::AngleAxisd(a.camera_from_world.linear() * b.camera_from_world.linear().transpose()).angle() /
+         radians;
+}
+
+}  // namespace drape::alignment
