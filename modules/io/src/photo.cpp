@@ -4,11 +4,14 @@
 #include <array>
 #include <utility>
 
+#include "color_profile.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
+#include "drape/base/log.hpp"
 #include "exif.hpp"
 #include "picture_codec.hpp"
 #include "picture_header.hpp"
+#include "text_lines.hpp"
 
 namespace drape::io {
 namespace {
@@ -119,13 +122,23 @@ Opened opened(const std::filesystem::path& file) {
   return result;
 }
 
+void tell_profile(const std::filesystem::path& file, const PictureHeader& header, ProfileKind kind) {
+  const std::string& packed = header.packed_icc_name;
+  if (kind == ProfileKind::applied) log::info("{}: its colour profile is converted to sRGB", file.string());
+  if (kind == ProfileKind::not_applied || (!packed.empty() && packed.find("sRGB") == std::string::npos))
+    log::warn("{}: its colour profile{} is not applied: convert the photo to sRGB if its colours matter",
+              file.string(), packed.empty() ? "" : " " + shown(packed));
+}
+
 }  // namespace
 
 Photo read_photo(const std::filesystem::path& file) {
   const Opened photo = opened(file);
   const Image8 pixels = upright(photo.picture.pixels, photo.exif.orientation);
   Photo result;
-  result.rgb = rgb_of(pixels);
+  SrgbPicture colors = to_srgb(rgb_of(pixels), photo.header.icc);
+  tell_profile(file, photo.header, colors.kind);
+  result.rgb = std::move(colors.rgb);
   result.alpha = alpha_of(pixels);
   result.focal_px_prior =
       focal_px(photo.exif, static_cast<int>(photo.header.width), static_cast<int>(photo.header.height));

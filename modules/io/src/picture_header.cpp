@@ -30,6 +30,10 @@ std::uint64_t little(std::string_view bytes, std::size_t at, std::size_t size) {
   return value;
 }
 
+bool is_blank(char c) {
+  return c == ' ' || c == '\n' || c == '\r' || c == '\t';
+}
+
 Error truncated(const std::string& file, std::size_t byte) {
   return byte_error(file, byte, "the picture ends here: the file is truncated");
 }
@@ -86,7 +90,7 @@ std::size_t after_entropy_data(std::string_view bytes, std::size_t at) {
 }
 
 PictureHeader jpeg_header(const std::string& file, std::string_view bytes) {
-  PictureHeader header{PictureFormat::jpeg, 0, 0, {}};
+  PictureHeader header{PictureFormat::jpeg, 0, 0, {}, {}, {}};
   std::size_t at = 2;
   while (at + 1 < bytes.size()) {
     const auto marker = static_cast<unsigned char>(bytes[at + 1]);
@@ -116,6 +120,9 @@ PictureHeader jpeg_header(const std::string& file, std::string_view bytes) {
     }
     if (marker == 0xE1 && header.exif.empty() && segment.starts_with("Exif\0\0"sv))
       header.exif = segment.substr(6);
+    // A profile may take several segments, each with its number and their count; they come in order.
+    if (marker == 0xE2 && segment.starts_with("ICC_PROFILE\0"sv) && segment.size() > 14)
+      header.icc += segment.substr(14);
     at += 2 + length;
     if (marker == 0xDA) at = after_entropy_data(bytes, at);
   }
@@ -140,7 +147,7 @@ std::uint32_t crc32(std::string_view bytes) {
 }
 
 PictureHeader png_header(const std::string& file, std::string_view bytes) {
-  PictureHeader header{PictureFormat::png, 0, 0, {}};
+  PictureHeader header{PictureFormat::png, 0, 0, {}, {}, {}};
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
     const std::uint64_t length = big(bytes, at, 4);
     if (length > bytes.size() - at - 12) break;
@@ -154,6 +161,7 @@ PictureHeader png_header(const std::string& file, std::string_view bytes) {
       header.height = big(data, 4, 4);
     }
     if (type == "eXIf"sv) header.exif = data;
+    if (type == "iCCP"sv) header.packed_icc_name = data.substr(0, std::min<std::size_t>(data.find('\0'), 79));
     if (type == "IEND"sv) return header;
     at += 12 + length;
   }
@@ -163,7 +171,7 @@ PictureHeader png_header(const std::string& file, std::string_view bytes) {
 // --- TIFF 6.0
 
 PictureHeader tiff_header(const std::string& file, std::string_view bytes) {
-  PictureHeader header{PictureFormat::tiff, 0, 0, bytes};
+  PictureHeader header{PictureFormat::tiff, 0, 0, bytes, {}, {}};
   const TiffBytes tiff(bytes);
   std::vector<double> offsets;
   std::vector<double> sizes;
@@ -172,6 +180,7 @@ PictureHeader tiff_header(const std::string& file, std::string_view bytes) {
     if (entry.tag == 256) header.width = static_cast<std::uint64_t>(value);
     if (entry.tag == 257) header.height = static_cast<std::uint64_t>(value);
     if (entry.tag == 273 || entry.tag == 324) offsets = tiff.numbers(entry);
+    if (entry.tag == 34675) header.icc = tiff.text(entry.at, entry.count);
     if (entry.tag == 279 || entry.tag == 325) sizes = tiff.numbers(entry);
   }
   if (offsets.empty() || offsets.size() != sizes.size())
@@ -184,7 +193,7 @@ PictureHeader tiff_header(const std::string& file, std::string_view bytes) {
 // --- WebP (RFC 9649)
 
 PictureHeader webp_header(const std::string& file, std::string_view bytes) {
-  PictureHeader header{PictureFormat::webp, 0, 0, {}};
+  PictureHeader header{PictureFormat::webp, 0, 0, {}, {}, {}};
   if (little(bytes, 4, 4) + 8 > bytes.size()) throw truncated(file, bytes.size());
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const std::string_view type = bytes.substr(at, 4);
@@ -201,6 +210,8 @@ PictureHeader webp_header(const std::string& file, std::string_view bytes) {
       const std::uint64_t bits = little(data, 1, 4);
       header.width = (bits & 0x3FFF) + 1;
       header.height = (bits >> 14 & 0x3FFF) + 1;
+    } else if (type == "ICCP"sv) {
+      header.icc = data;
     } else if (type == "EXIF"sv) {
       header.exif = data.starts_with("Exif\0\0"sv) ? data.substr(6) : data;
     }
@@ -212,7 +223,7 @@ PictureHeader webp_header(const std::string& file, std::string_view bytes) {
 // --- BMP
 
 PictureHeader bmp_header(const std::string& file, std::string_view bytes) {
-  PictureHeader header{PictureFormat::bmp, 0, 0, {}};
+  PictureHeader header{PictureFormat::bmp, 0, 0, {}, {}, {}};
   if (bytes.size() < 34) throw truncated(file, bytes.size());
   const bool old = little(bytes, 14, 4) == 12;
   const auto magnitude = [](std::uint64_t value) {
@@ -239,8 +250,7 @@ PictureHeader pnm_header(const std::string& file, std::string_view bytes) {
   const int kind = bytes[1] - '0';
   std::size_t at = 2;
   const auto next_number = [&]() -> std::uint64_t {
-    while (at < bytes.size() &&
-           (std::isspace(static_cast<unsigned char>(bytes[at])) != 0 || bytes[at] == '#'))
+    while (at < bytes.size() && (is_blank(bytes[at]) || bytes[at] == '#'))
       at = bytes[at] == '#' ? std::min(bytes.find('\n', at), bytes.size()) : at + 1;
     const std::size_t begin = at;
     while (at < bytes.size() && bytes[at] >= '0' && bytes[at] <= '9') ++at;
@@ -248,7 +258,7 @@ PictureHeader pnm_header(const std::string& file, std::string_view bytes) {
     if (!value) throw byte_error(file, begin, "the PNM header should have a number here");
     return static_cast<std::uint64_t>(*value);
   };
-  PictureHeader header{PictureFormat::pnm, next_number(), next_number(), {}};
+  PictureHeader header{PictureFormat::pnm, next_number(), next_number(), {}, {}, {}};
   const bool bits = kind == 1 || kind == 4;
   const std::uint64_t most = bits ? 1 : next_number();
   if (most == 0 || most > 65535)
@@ -273,8 +283,7 @@ PictureHeader any_header(const std::string& file, std::string_view bytes) {
   if (bytes.starts_with("RIFF"sv) && bytes.size() >= 12 && bytes.substr(8, 4) == "WEBP"sv)
     return webp_header(file, bytes);
   if (bytes.starts_with("BM"sv)) return bmp_header(file, bytes);
-  if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6' &&
-      std::isspace(static_cast<unsigned char>(bytes[2])) != 0)
+  if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6' && is_blank(bytes[2]))
     return pnm_header(file, bytes);
   throw input_error("{}: is no picture that can be read (JPEG, PNG, TIFF, WebP, BMP, PNM)", file);
 }

@@ -101,7 +101,8 @@ class BodyReader {
     for (const PlyProperty& property : table.element.properties) {
       Step step{&property, nullptr, 0, 0};
       if (const PlyWanted* wanted = find_wanted(table.element, property)) {
-        step.column = const_cast<PlyColumn*>(table.column(property.name));
+        for (PlyColumn& column : table.columns)
+          if (column.property.name == property.name) step.column = &column;
         step.separator = wanted->separator;
         if (!wanted->names_rows_of.empty())
           step.row_limit = std::max<std::uint64_t>(1, rows_of(wanted->names_rows_of));

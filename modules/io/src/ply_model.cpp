@@ -1,4 +1,5 @@
 // Textured PLY as MeshLab reads it: TextureFile comments, per-face texcoord and texnumber.
+#include <algorithm>
 #include <cmath>
 
 #include "drape/base/files.hpp"
@@ -151,6 +152,8 @@ void add_faces(const PlyFile& ply, const NamedMaterials& named, TexturedMesh& mo
       throw ply.row_error(
           *table, row,
           fmt::format("the face has {} corners, but {} texture coordinates", polygon.size(), uv.size()));
+    if (!std::all_of(uv.begin(), uv.end(), [](double x) { return std::isfinite(x); }))
+      throw ply.row_error(*table, row, "the face has a texture coordinate that is not finite");
     const auto corner_uv = [&](std::size_t k) {
       return Eigen::Vector2f(static_cast<float>(uv[2 * k]), 1.0F - static_cast<float>(uv[2 * k + 1]));
     };

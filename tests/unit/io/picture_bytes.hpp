@@ -62,6 +62,9 @@ class TiffBuilder {
   }
   void add_long(std::uint16_t tag, std::uint32_t value) { add(tag, 4, 1, raw(value, big_)); }
   void add_ratio(std::uint16_t tag, std::uint32_t above, std::uint32_t below) { add(tag, 5, 1, raw(above, big_) + raw(below, big_)); }
+  void add_undefined(std::uint16_t tag, const std::string& bytes) {
+    add(tag, 7, static_cast<std::uint32_t>(bytes.size()), bytes);
+  }
   void add_text(std::uint16_t tag, const std::string& text) { add(tag, 2, static_cast<std::uint32_t>(text.size() + 1), text + '\0'); }
   /// EXIF's own directory, behind this one.
   void add_directory(std::uint16_t tag, const TiffBuilder& directory) { directories_.emplace_back(tag, directory); }

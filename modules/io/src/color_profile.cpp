@@ -1,0 +1,216 @@
+#include "color_profile.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace drape::io {
+namespace {
+
+using Curve = std::array<double, 256>;  // linear value of each byte
+
+struct Profile {
+  Eigen::Matrix3d xyz_from_linear;  // D50, as the profile connection space has it
+  std::array<Curve, 3> curves;
+};
+
+/// Big-endian numbers of an ICC profile; nothing beyond its end.
+class IccBytes {
+ public:
+  explicit IccBytes(std::string_view bytes) : bytes_(bytes) {}
+
+  [[nodiscard]] std::optional<std::uint32_t> number(std::size_t at, std::size_t size) const {
+    if (at > bytes_.size() || size > bytes_.size() - at) return std::nullopt;
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) value = value << 8 | static_cast<unsigned char>(bytes_[at + i]);
+    return value;
+  }
+  [[nodiscard]] std::optional<double> fixed(std::size_t at) const {  // s15Fixed16Number
+    const auto value = number(at, 4);
+    return value ? std::optional<double>(static_cast<std::int32_t>(*value) / 65536.0) : std::nullopt;
+  }
+  [[nodiscard]] std::string_view text(std::size_t at) const {
+    return at > bytes_.size() ? std::string_view() : bytes_.substr(at, 4);
+  }
+
+  /// Where a tag's data lie.
+  [[nodiscard]] std::optional<std::size_t> tag(std::string_view name) const {
+    const std::uint32_t count = std::min(number(128, 4).value_or(0), 1000U);
+    for (std::size_t i = 0; i < count; ++i)
+      if (text(132 + 12 * i) == name) return number(136 + 12 * i, 4);
+    return std::nullopt;
+  }
+
+ private:
+  std::string_view bytes_;
+};
+
+std::optional<Eigen::Vector3d> xyz_of(const IccBytes& icc, std::string_view tag) {
+  const auto at = icc.tag(tag);
+  if (!at || icc.text(*at) != "XYZ ") return std::nullopt;
+  Eigen::Vector3d xyz;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto value = icc.fixed(*at + 8 + 4 * k);
+    if (!value) return std::nullopt;
+    xyz[static_cast<Eigen::Index>(k)] = *value;
+  }
+  return xyz;
+}
+
+/// ICC.1:2010 10.15, parametricCurveType.
+std::optional<Curve> parametric_curve(const IccBytes& icc, std::size_t at) {
+  static constexpr std::array<std::size_t, 5> parameter_counts{1, 3, 4, 5, 7};
+  const auto type = icc.number(at + 8, 2);
+  if (!type || *type >= parameter_counts.size()) return std::nullopt;
+  std::array<double, 7> p{1, 1, 0, 0, 0, 0, 0};  // g a b c d e f
+  for (std::size_t i = 0; i < parameter_counts[*type]; ++i) {
+    const auto value = icc.fixed(at + 12 + 4 * i);
+    if (!value) return std::nullopt;
+    p[i] = *value;
+  }
+  const auto [g, a, b, c, d, e, f] = p;
+  const auto power = [g = g, a = a, b = b](double x) { return std::pow(std::max(0.0, a * x + b), g); };
+  const double limit = *type < 3 ? (a != 0 ? -b / a : 0) : d;
+  Curve curve{};
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double x = static_cast<double>(i) / 255;
+    const bool above = *type == 0 || x >= limit;
+    switch (*type) {
+      case 2:
+        curve[i] = (above ? power(x) : 0) + c;
+        break;
+      case 3:
+        curve[i] = above ? power(x) : c * x;
+        break;
+      case 4:
+        curve[i] = above ? power(x) + e : c * x + f;
+        break;
+      default:
+        curve[i] = above ? power(x) : 0;
+        break;
+    }
+  }
+  return curve;
+}
+
+/// ICC.1:2010 10.5, curveType: a gamma, or a table that is interpolated linearly.
+std::optional<Curve> sampled_curve(const IccBytes& icc, std::size_t at) {
+  const auto count = icc.number(at + 8, 4);
+  if (!count || !icc.number(at + 12, 2 * std::min<std::size_t>(*count, 2))) return std::nullopt;
+  Curve curve{};
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const double x = static_cast<double>(i) / 255;
+    if (*count == 0) {
+      curve[i] = x;
+    } else if (*count == 1) {
+      curve[i] = std::pow(x, *icc.number(at + 12, 2) / 256.0);
+    } else {
+      const double place = x * (*count - 1.0);
+      const auto below = static_cast<std::size_t>(place);
+      const auto low = icc.number(at + 12 + 2 * below, 2);
+      const auto high = icc.number(at + 12 + 2 * std::min<std::size_t>(below + 1, *count - 1), 2);
+      if (!low || !high) return std::nullopt;
+      curve[i] = (*low + (place - static_cast<double>(below)) * (static_cast<double>(*high) - *low)) / 65535;
+    }
+  }
+  return curve;
+}
+
+std::optional<Profile> parsed(std::string_view bytes) {
+  const IccBytes icc(bytes);
+  if (icc.text(36) != "acsp" || icc.text(16) != "RGB " || icc.text(20) != "XYZ ") return std::nullopt;
+  Profile profile;
+  static constexpr std::array<std::string_view, 3> colorants{"rXYZ", "gXYZ", "bXYZ"},
+      curves{"rTRC", "gTRC", "bTRC"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto xyz = xyz_of(icc, colorants[k]);
+    const auto at = icc.tag(curves[k]);
+    if (!xyz || !at) return std::nullopt;
+    const auto curve = icc.text(*at) == "para"   ? parametric_curve(icc, *at)
+                       : icc.text(*at) == "curv" ? sampled_curve(icc, *at)
+                                                 : std::nullopt;
+    if (!curve || !std::all_of(curve->begin(), curve->end(), [](double x) { return std::isfinite(x); }))
+      return std::nullopt;
+    profile.xyz_from_linear.col(static_cast<Eigen::Index>(k)) = *xyz;
+    profile.curves[k] = *curve;
+  }
+  return profile;
+}
+
+double encoded(double linear) {  // IEC 61966-2-1
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+/// sRGB byte of a linear value in steps of 1 / 65535.
+std::vector<std::uint8_t> encoding_table() {
+  std::vector<std::uint8_t> table(65536);
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = static_cast<std::uint8_t>(std::lround(255 * encoded(static_cast<double>(i) / 65535)));
+  return table;
+}
+
+/// sRGB's primaries adapted to D50 (Bradford), as its ICC profiles have them (sRGB IEC61966-2.1, ICC).
+Eigen::Matrix3d srgb_from_xyz() {
+  Eigen::Matrix3d xyz_from_srgb;
+  xyz_from_srgb << 0.43607, 0.38515, 0.14307, 0.22249, 0.71687, 0.06061, 0.01392, 0.09708, 0.71410;
+  return xyz_from_srgb.inverse();
+}
+
+class Converter {
+ public:
+  explicit Converter(const Profile& profile)
+      : curves_(profile.curves),
+        srgb_from_linear_(srgb_from_xyz() * profile.xyz_from_linear),
+        table_(encoding_table()) {}
+
+  [[nodiscard]] std::array<std::uint8_t, 3> operator()(std::uint8_t r, std::uint8_t g, std::uint8_t b) const {
+    const Eigen::Vector3d linear =
+        srgb_from_linear_ * Eigen::Vector3d(curves_[0][r], curves_[1][g], curves_[2][b]);
+    std::array<std::uint8_t, 3> bytes{};
+    for (std::size_t k = 0; k < 3; ++k)
+      bytes[k] = table_[static_cast<std::size_t>(
+          std::lround(std::clamp(linear[static_cast<Eigen::Index>(k)], 0.0, 1.0) * 65535))];
+    return bytes;
+  }
+
+  /// Whether no colour of a coarse lattice moves by more than one step: rounding moves some by one.
+  [[nodiscard]] bool changes_nothing() const {
+    for (int r = 0; r < 256; r += 51)
+      for (int g = 0; g < 256; g += 51)
+        for (int b = 0; b < 256; b += 51) {
+          const auto in = std::array{r, g, b};
+          const auto out = (*this)(static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g),
+                                   static_cast<std::uint8_t>(b));
+          for (std::size_t k = 0; k < 3; ++k)
+            if (std::abs(out[k] - in[k]) > 1) return false;
+        }
+    return true;
+  }
+
+ private:
+  std::array<Curve, 3> curves_;
+  Eigen::Matrix3d srgb_from_linear_;
+  std::vector<std::uint8_t> table_;
+};
+
+}  // namespace
+
+SrgbPicture to_srgb(Image8 rgb, std::string_view icc) {
+  if (icc.empty()) return {std::move(rgb), ProfileKind::none};
+  const auto profile = parsed(icc);
+  if (!profile) return {std::move(rgb), ProfileKind::not_applied};
+  const Converter convert(*profile);
+  if (convert.changes_nothing()) return {std::move(rgb), ProfileKind::none};
+  std::vector<std::uint8_t>& data = rgb.data();
+  for (std::size_t i = 0; i + 2 < data.size(); i += 3) {
+    const auto bytes = convert(data[i], data[i + 1], data[i + 2]);
+    std::copy(bytes.begin(), bytes.end(), data.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return {std::move(rgb), ProfileKind::applied};
+}
+
+}  // namespace drape::io
