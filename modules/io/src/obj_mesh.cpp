@@ -76,7 +76,8 @@ class ObjReader {
 
   void other(std::string_view key) {
     if (std::find(ignored_keywords.begin(), ignored_keywords.end(), key) != ignored_keywords.end()) return;
-    if (!std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c <= '~'; }))
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    if (key != "curv2" && !std::all_of(key.begin(), key.end(), letter))
       throw line_error(file_, lines_.number(), "{} is no OBJ keyword: is the file damaged?", shown(key));
     if (!warned_)
       log::warn("{}:{}: lines with the keyword {} are left out", file_, lines_.number(), shown(key));

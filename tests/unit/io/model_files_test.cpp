@@ -178,6 +178,7 @@ TEST(GltfCheck, SeesWhatIsBroken) {
   io::write_glb(folder / "x.glb", model(), y_up(), {0, 0, 0});
   const std::string good = read_file(folder / "x.glb");
   const auto problems = [&](const std::string& bytes) {
+    std::filesystem::remove(folder / "y.glb");
     write_file(folder / "y.glb", bytes);
     return test::gltf_problems(folder / "y.glb");
   };
