@@ -1,0 +1,224 @@
+#include "patching.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "drape/base/parallel.hpp"
+#include "drape/meshing/mesh_quality.hpp"
+#include "hole_patch.hpp"
+#include "hole_region.hpp"
+
+namespace drape::meshing {
+namespace {
+
+// Patches of loops up to this many edges are as dense as the mesh round them. Their vertices grow with the
+// square of the edges, and the cost of fairing faster than that, so longer loops get patches of about the
+// same number of vertices: 400 edges cost half a second, 2,300 at full density over a minute.
+constexpr std::size_t full_density_edges = 400;
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+// A hole and its patch.
+struct Work {
+  std::vector<std::uint32_t> loop;
+  HoleRegion region;
+  Patch patch;
+  Smoothness smoothness = Smoothness::faired;
+  std::string how;
+  std::size_t crossings = 0;  // pairs of faces
+};
+
+std::string in_words(Smoothness smoothness, double density) {
+  std::string words = smoothness == Smoothness::faired    ? "refined and faired"
+                      : smoothness == Smoothness::refined ? "refined, not faired"
+                                                          : "triangulated without new vertices";
+  if (density < 1 && smoothness != Smoothness::plain)
+    words += fmt::format(", {:.1f} times coarser than the mesh to bound the cost", 1 / density);
+  return words;
+}
+
+// Tries what is smoothest first, from work.smoothness on; a fan at the end always succeeds.
+void make_patch(Work& work) {
+  const Chords taken = taken_chords(work.region);
+  const double density =
+      std::min(1.0, static_cast<double>(full_density_edges) / static_cast<double>(work.region.loop));
+  for (const Smoothness smoothness : {Smoothness::faired, Smoothness::refined, Smoothness::plain}) {
+    if (smoothness < work.smoothness) continue;
+    std::optional<Patch> patch = triangulated_patch(work.region, smoothness, density);
+    if (!patch || !closes_hole(*patch, work.region.loop, taken)) continue;
+    work.patch = std::move(*patch);
+    work.smoothness = smoothness;
+    work.how = in_words(smoothness, density);
+    return;
+  }
+  work.smoothness = Smoothness::plain;
+  const std::vector<Eigen::Vector3d> loop(
+      work.region.points.begin(), work.region.points.begin() + static_cast<std::ptrdiff_t>(work.region.loop));
+  if (std::optional<Patch> patch = clipped_patch(loop, taken);
+      patch && closes_hole(*patch, loop.size(), taken)) {
+    work.patch = std::move(*patch);
+    work.how = "ears clipped: no smoother patch was found";
+    return;
+  }
+  work.patch = fan_patch(loop);
+  work.how = "a fan: no other patch was found";
+}
+
+void make_patches(std::vector<Work*> works) {
+  parallel_for(works.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) make_patch(*works[i]);
+  });
+}
+
+// Two holes may want the same chord between two vertices that both of them pass: the later one gets a fan.
+void part_chords(std::vector<Work>& works) {
+  std::set<Edge> chords;
+  for (Work& work : works) {
+    std::vector<Edge> own;
+    const auto size = static_cast<std::uint32_t>(work.loop.size());
+    for (const Face& f : work.patch.faces)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = f[k];
+        const std::uint32_t b = f[(k + 1) % 3];
+        if (a >= size || b >= size || (a + 1) % size == b || (b + 1) % size == a) continue;
+        own.push_back(std::minmax(work.loop[a], work.loop[b]));
+      }
+    if (std::any_of(own.begin(), own.end(), [&](const Edge& e) { return chords.count(e) != 0; })) {
+      work.patch = fan_patch({work.region.points.begin(), work.region.points.begin() + size});
+      work.how = "a fan: another hole's patch has the same edges";
+      continue;
+    }
+    chords.insert(own.begin(), own.end());
+  }
+}
+
+// The blend of a boundary attribute by inverse squared distance, for each new vertex.
+template <class Attribute>
+void append_blended(std::vector<Attribute>& values, const TriangleMesh& mesh, const Work& work) {
+  if (values.empty()) return;
+  std::vector<double> weights(work.loop.size());
+  for (const Eigen::Vector3d& p : work.patch.vertices) {
+    double total = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const double squared = (mesh.vertices[work.loop[i]] - p).squaredNorm();
+      total += weights[i] = 1 / std::max(squared, std::numeric_limits<double>::min());
+    }
+    Attribute blend = values[work.loop[0]] * 0.0F;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      blend += values[work.loop[i]] * static_cast<float>(weights[i] / total);
+    values.push_back(blend);
+  }
+}
+
+void append_patch(TriangleMesh& mesh, const TriangleMesh& original, const Work& work) {
+  const auto first_new = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto size = static_cast<std::uint32_t>(work.loop.size());
+  mesh.vertices.insert(mesh.vertices.end(), work.patch.vertices.begin(), work.patch.vertices.end());
+  append_blended(mesh.colors, original, work);
+  append_blended(mesh.intensities, original, work);
+  // No scanner saw what is filled in.
+  if (!mesh.confidences.empty()) mesh.confidences.resize(mesh.vertices.size(), 0.0F);
+  for (const Face& f : work.patch.faces) {
+    Face face{};
+    for (std::size_t k = 0; k < 3; ++k) face[k] = f[k] < size ? work.loop[f[k]] : f[k] - size + first_new;
+    mesh.faces.push_back(face);
+    mesh.filled.push_back(1);
+  }
+}
+
+TriangleMesh assembled(const TriangleMesh& mesh, const std::vector<Work>& works) {
+  TriangleMesh result = mesh;
+  result.filled.resize(mesh.faces.size(), 0);
+  for (const Work& work : works) append_patch(result, mesh, work);
+  if (!mesh.normals.empty()) {
+    const std::vector<Eigen::Vector3f> normals = vertex_normals(result);
+    result.normals.insert(result.normals.end(),
+                          normals.begin() + static_cast<std::ptrdiff_t>(mesh.vertices.size()), normals.end());
+  }
+  return result;
+}
+
+// For each hole, how many pairs of faces its patch is part of that cross.
+std::vector<std::size_t> crossings_of(const TriangleMesh& patched, std::size_t faces_before,
+                                      const std::vector<Work>& works) {
+  std::vector<std::uint32_t> hole_of;
+  for (std::uint32_t i = 0; i < works.size(); ++i)
+    hole_of.insert(hole_of.end(), works[i].patch.faces.size(), i);
+  std::vector<std::uint8_t> tested(patched.faces.size(), 0);
+  std::fill(tested.begin() + static_cast<std::ptrdiff_t>(faces_before), tested.end(), 1);
+  std::vector<std::size_t> crossings(works.size(), 0);
+  for (const auto& [a, b] : self_intersecting_pairs(patched, tested)) {
+    if (b >= faces_before) ++crossings[hole_of[b - faces_before]];
+    if (a >= faces_before && hole_of[a - faces_before] != hole_of[b - faces_before])
+      ++crossings[hole_of[a - faces_before]];
+  }
+  return crossings;
+}
+
+// Where a patch crosses the surface, the next less smooth one is tried; the one that crosses least stays.
+TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& works) {
+  TriangleMesh result = assembled(mesh, works);
+  std::vector<std::size_t> crossings = crossings_of(result, mesh.faces.size(), works);
+  for (std::size_t i = 0; i < works.size(); ++i) works[i].crossings = crossings[i];
+  for (const Smoothness smoothness : {Smoothness::refined, Smoothness::plain}) {
+    std::vector<Work> tries = works;
+    std::vector<Work*> changed;
+    for (Work& work : tries)
+      if (work.crossings > 0 && work.smoothness < smoothness) {
+        work.smoothness = smoothness;
+        changed.push_back(&work);
+      }
+    if (changed.empty()) continue;
+    make_patches(changed);
+    part_chords(tries);
+    crossings = crossings_of(assembled(mesh, tries), mesh.faces.size(), tries);
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      if (crossings[i] >= works[i].crossings) continue;
+      works[i] = tries[i];
+      works[i].crossings = crossings[i];
+      works[i].how += ": a smoother patch would cut the surface";
+    }
+    part_chords(works);
+    result = assembled(mesh, works);
+  }
+  return result;
+}
+
+}  // namespace
+
+Patched with_patches(const TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& loops,
+                     const Progress& progress) {
+  Patched result;
+  result.holes.resize(loops.size());
+  const VertexFaces around(mesh);
+  std::vector<Work> works;
+  std::vector<std::size_t> hole_of;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    if (std::optional<HoleRegion> region = hole_region(mesh, around, loops[i])) {
+      works.push_back({loops[i], std::move(*region), {}, Smoothness::faired, {}, 0});
+      hole_of.push_back(i);
+    }
+  constexpr std::size_t holes_per_step = 64;
+  for (std::size_t begin = 0; begin < works.size(); begin += holes_per_step) {
+    progress.update(0.8 * static_cast<double>(begin) / static_cast<double>(works.size()), "filling holes");
+    std::vector<Work*> step;
+    for (std::size_t i = begin; i < std::min(works.size(), begin + holes_per_step); ++i)
+      step.push_back(&works[i]);
+    make_patches(step);
+  }
+  progress.update(0.8, "looking for self-intersections");
+  part_chords(works);
+  result.mesh = with_least_crossings(mesh, works);
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    result.holes[hole_of[i]] = {works[i].how, works[i].patch.faces.size()};
+    result.crossings += works[i].crossings;
+  }
+  return result;
+}
+
+}  // namespace drape::meshing

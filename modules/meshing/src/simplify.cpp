@@ -1,0 +1,67 @@
+#include "drape/meshing/simplify.hpp"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "cleaning.hpp"
+#include "drape/geometry/bounding_box.hpp"
+#include "drape/geometry/kd_tree.hpp"
+
+namespace drape::meshing {
+namespace {
+
+Eigen::Vector3d centroid(const TriangleMesh& mesh, const Face& f) {
+  return (mesh.vertices[f[0]] + mesh.vertices[f[1]] + mesh.vertices[f[2]]) / 3;
+}
+
+// The library works in floats: about the centre they hold enough digits.
+std::vector<float> centered_positions(const TriangleMesh& mesh) {
+  const Eigen::Vector3d center = bounding_box(mesh.vertices).center();
+  std::vector<float> positions;
+  positions.reserve(3 * mesh.vertices.size());
+  for (const Eigen::Vector3d& p : mesh.vertices)
+    for (int k = 0; k < 3; ++k) positions.push_back(static_cast<float>(p[k] - center[k]));
+  return positions;
+}
+
+std::vector<std::uint8_t> filled_as_nearest(const TriangleMesh& mesh, const std::vector<Face>& faces) {
+  std::vector<Eigen::Vector3d> centroids;
+  centroids.reserve(mesh.faces.size());
+  for (const Face& f : mesh.faces) centroids.push_back(centroid(mesh, f));
+  const KdTree tree(centroids);
+  std::vector<std::uint8_t> filled;
+  for (const Face& f : faces) {
+    Neighbor nearest{};
+    tree.nearest(centroid(mesh, f), {&nearest, 1});
+    filled.push_back(mesh.filled[nearest.index]);
+  }
+  return filled;
+}
+
+}  // namespace
+
+TriangleMesh simplified(const TriangleMesh& mesh, std::size_t triangles) {
+  if (mesh.faces.size() <= triangles || mesh.empty()) return mesh;
+  const std::vector<float> positions = centered_positions(mesh);
+  std::vector<unsigned int> indices;
+  indices.reserve(3 * mesh.faces.size());
+  for (const Face& f : mesh.faces) indices.insert(indices.end(), f.begin(), f.end());
+  std::vector<unsigned int> left(indices.size());
+  constexpr float any_error = 1.0F;  // relative to the extent of the mesh
+  left.resize(meshopt_simplify(left.data(), indices.data(), indices.size(), positions.data(),
+                               mesh.vertices.size(), 3 * sizeof(float), 3 * triangles, any_error, 0,
+                               nullptr));
+  TriangleMesh result = mesh;
+  result.faces.clear();
+  for (std::size_t i = 0; i + 2 < left.size(); i += 3)
+    result.faces.push_back({left[i], left[i + 1], left[i + 2]});
+  if (!mesh.filled.empty()) result.filled = filled_as_nearest(mesh, result.faces);
+  result = without_bad_faces(without_unused_vertices(result)).mesh;
+  if (!result.normals.empty()) result.normals = vertex_normals(result);
+  return result;
+}
+
+}  // namespace drape::meshing
