@@ -7,8 +7,8 @@
 
 namespace drape::meshing {
 
-/// Vertices by their coordinates, faces by their vertices and each with its least vertex first: the same bytes
-/// for the same geometry. Orientations are lost, attributes must not be there yet.
+/// Vertices by their coordinates, faces by their vertices and each with its least vertex first: the same
+/// bytes for the same geometry. Orientations are lost, attributes must not be there yet.
 [[nodiscard]] TriangleMesh in_canonical_order(const TriangleMesh& mesh);
 
 /// The mesh with each edge-connected piece consistently oriented, and turned so that the sum of votes[face] *

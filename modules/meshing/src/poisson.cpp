@@ -1,5 +1,7 @@
 #include "poisson.hpp"
 
+#include "stable_double_map.hpp"
+
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_with_circumcenter_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -21,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "drape/base/random.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "point_merging.hpp"
 
@@ -76,12 +79,19 @@ struct UnitFrame {
   }
 };
 
+// CGAL's solver crashes on samples that all lie in one plane, and decides ties between samples on a lattice
+// by addresses in memory: all go in off their place by an invisible part of the spacing.
 std::vector<OrientedPoint> oriented_points(const PointCloud& samples, const UnitFrame& frame) {
+  constexpr double most = 1e-4;
   std::vector<OrientedPoint> points;
   points.reserve(samples.size());
+  Rng rng(0);
   for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double x = rng.uniform(-most, most);
+    const double y = rng.uniform(-most, most);
+    const Vector offset(x, y, rng.uniform(-most, most));
     const Eigen::Vector3f& n = samples.normals[i];
-    points.emplace_back(frame.to_unit(samples.positions[i]), Vector(n.x(), n.y(), n.z()));
+    points.emplace_back(frame.to_unit(samples.positions[i]) + offset, Vector(n.x(), n.y(), n.z()));
   }
   return points;
 }
