@@ -1,0 +1,42 @@
+#include "linear_light.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace drape::texturing {
+namespace {
+
+float linear(float stored) {
+  return stored <= 0.04045F ? stored / 12.92F : std::pow((stored + 0.055F) / 1.055F, 2.4F);
+}
+
+float stored(float linear_value) {
+  const float value = std::clamp(linear_value, 0.F, 1.F);
+  return value <= 0.0031308F ? 12.92F * value : 1.055F * std::pow(value, 1 / 2.4F) - 0.055F;
+}
+
+}  // namespace
+
+float linear_from_byte(std::uint8_t value) {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> t{};
+    for (std::size_t i = 0; i < t.size(); ++i) t[i] = linear(static_cast<float>(i) / 255.F);
+    return t;
+  }();
+  return table[value];
+}
+
+std::uint8_t byte_from_linear(float value) {
+  return static_cast<std::uint8_t>(std::lround(255.F * stored(value)));
+}
+
+Eigen::Vector3f linear_from_stored(const Eigen::Vector3f& value) {
+  return value.unaryExpr([](float v) { return linear(v); });
+}
+
+Eigen::Vector3f stored_from_linear(const Eigen::Vector3f& value) {
+  return value.unaryExpr([](float v) { return stored(v); });
+}
+
+}  // namespace drape::texturing

@@ -1,0 +1,31 @@
+// Which photos can paint which faces, with the faces split where that changes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "drape/base/progress.hpp"
+#include "photo_sight.hpp"
+#include "surface_normals.hpp"
+
+namespace drape::texturing {
+
+/// A photo that sees all of a face.
+struct Candidate {
+  int view;
+  double quality;     // higher is better: pixels per area, less if seen obliquely or with grown colours
+  double full_share;  // of the face: on fully trusted pixels
+};
+
+struct PaintedFaces {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> candidate_sets;       // per face: index into candidates
+  std::vector<std::vector<Candidate>> candidates;  // set 0 is empty
+};
+
+/// Splits the faces of `mesh` until each is either seen whole by some photo or not at all, down to edges of
+/// split_px in the photo: what is then still seen partly counts as unseen. Edges are cut where sight ends.
+[[nodiscard]] PaintedFaces split_at_sight(const TriangleMesh& mesh, std::span<const PhotoSight> sights,
+                                          double split_px, const Progress& progress);
+
+}  // namespace drape::texturing

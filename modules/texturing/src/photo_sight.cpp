@@ -1,0 +1,115 @@
+#include "photo_sight.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "drape/geometry/bounding_box.hpp"
+
+namespace drape::texturing {
+namespace {
+
+constexpr int largest_depth_map_px = 8192;
+constexpr double steepest_slope = 10;  // tangent of the incidence up to which the tolerance grows
+
+}  // namespace
+
+PhotoSight::PhotoSight(const Camera& camera, ImageF depth, Image8 trusted, double tolerance,
+                       double max_incidence_deg)
+    : camera_(camera),
+      camera_from_pixel_(camera.K.inverse()),
+      depth_(std::move(depth)),
+      trusted_(std::move(trusted)),
+      tolerance_(tolerance),
+      least_cosine_(std::cos(max_incidence_deg * std::numbers::pi / 180)) {}
+
+bool PhotoSight::holds(const Eigen::Vector2d& pixel, double margin_px) const {
+  return pixel.x() >= -margin_px && pixel.y() >= -margin_px && pixel.x() <= camera_.width + margin_px &&
+         pixel.y() <= camera_.height + margin_px;
+}
+
+std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                              const Eigen::Vector3d& face_normal) const {
+  const Camera::Projected seen = camera_.project(point);
+  const bool perspective = camera_.projection == Camera::Projection::perspective;
+  if (perspective && !(seen.depth > 0)) return trust::none;
+  if (!holds(seen.pixel)) return trust::none;
+  const double cosine = normal.dot(camera_.towards_camera(point));
+  if (!(cosine >= least_cosine_)) return trust::none;
+  const int x = std::min(static_cast<int>(seen.pixel.x()), camera_.width - 1);
+  const int y = std::min(static_cast<int>(seen.pixel.y()), camera_.height - 1);
+  if (trusted_.at(x, y) == trust::none) return trust::none;
+  // A pixel of the depth map tells the depth within its own width only: the steeper the surface, the less
+  // exactly.
+  const double pixels_per_unit = std::sqrt(std::abs(camera_.K(0, 0) * camera_.K(1, 1)));
+  const double pixel_size =
+      (perspective ? seen.depth : 1.0) / pixels_per_unit * camera_.width / depth_.width();
+  const double slope = std::min(steepest_slope, std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine);
+  if (hidden(seen, point, normal, face_normal, tolerance_ + pixel_size * (0.5 + slope))) return trust::none;
+  return trusted_.at(x, y);
+}
+
+// Whether any of the pixels round it shows something in front of both planes through the point: the face's
+// own and the smoothed one (the face's leans too far where a scan is noisy, the other where it is coarse).
+bool PhotoSight::hidden(const Camera::Projected& seen, const Eigen::Vector3d& point,
+                        const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
+                        double tolerance) const {
+  const double scale_x = static_cast<double>(camera_.width) / depth_.width();
+  const double scale_y = static_cast<double>(camera_.height) / depth_.height();
+  const int left = static_cast<int>(std::floor(seen.pixel.x() / scale_x - 0.5));
+  const int top = static_cast<int>(std::floor(seen.pixel.y() / scale_y - 0.5));
+  const Eigen::Vector3d x_in_camera = camera_.camera_from_world * point;
+  const auto depth_of_plane = [&](const Eigen::Vector3d& normal_in_world, const Eigen::Vector3d& ray) {
+    const Eigen::Vector3d n = camera_.camera_from_world.linear() * normal_in_world;
+    const double offset = n.dot(x_in_camera);
+    return camera_.projection == Camera::Projection::perspective
+               ? offset / n.dot(ray)
+               : (offset - n.head<2>().dot(ray.head<2>())) / n.z();
+  };
+  for (int y = std::max(0, top - 1); y <= std::min(top + 2, depth_.height() - 1); ++y)
+    for (int x = std::max(0, left - 1); x <= std::min(left + 2, depth_.width() - 1); ++x) {
+      if (!(depth_.at(x, y) < seen.depth + tolerance)) continue;  // behind, or nothing there
+      const Eigen::Vector3d ray =
+          camera_from_pixel_ * Eigen::Vector3d((x + 0.5) * scale_x, (y + 0.5) * scale_y, 1);
+      const double plane = std::min(depth_of_plane(normal, ray), depth_of_plane(face_normal, ray));
+      if (depth_.at(x, y) < plane - tolerance) return true;
+    }
+  return false;
+}
+
+Camera depth_camera(const Camera& camera) {
+  const int side = std::max(camera.width, camera.height);
+  if (side <= largest_depth_map_px) return camera;
+  const double factor = static_cast<double>(largest_depth_map_px) / side;
+  return camera.resized(std::max(1, static_cast<int>(camera.width * factor)),
+                        std::max(1, static_cast<int>(camera.height * factor)));
+}
+
+double surface_deviation(const rendering::DepthMap& of_simplified, const TriangleMesh& simplified,
+                         const rendering::DepthMap& of_full, const Camera& camera) {
+  constexpr double percentile = 0.95;
+  constexpr double safety = 3;
+  constexpr double most_share = 0.02;
+  std::vector<double> distances;
+  for (int y = 0; y < of_full.faces.height(); ++y)
+    for (int x = 0; x < of_full.faces.width(); ++x) {
+      const std::int32_t face = of_simplified.faces.at(x, y);
+      if (face == rendering::DepthMap::no_face || of_full.faces.at(x, y) == rendering::DepthMap::no_face)
+        continue;
+      const double depth = of_simplified.depth.at(x, y);
+      const Eigen::Vector3d point = camera.unproject({x + 0.5, y + 0.5}, depth);
+      const double cosine = scaled_face_normal(simplified, static_cast<std::size_t>(face))
+                                .stableNormalized()
+                                .dot(camera.towards_camera(point));
+      if (cosine > 0) distances.push_back(cosine * std::abs(depth - of_full.depth.at(x, y)));
+    }
+  if (distances.empty()) return 0;
+  const auto at =
+      distances.begin() + static_cast<std::ptrdiff_t>(percentile * static_cast<double>(distances.size() - 1));
+  std::nth_element(distances.begin(), at, distances.end());
+  return std::min(safety * *at, most_share * bounding_box(simplified.vertices).diagonal().norm());
+}
+
+}  // namespace drape::texturing

@@ -1,0 +1,57 @@
+// What one photo sees of a surface.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "drape/geometry/camera.hpp"
+#include "drape/geometry/triangle_mesh.hpp"
+#include "drape/rendering/renderer.hpp"
+#include "usable_pixels.hpp"
+
+namespace drape::texturing {
+
+/// Answers for one photo and points of a surface close to the mesh that hides things from it.
+class PhotoSight {
+ public:
+  /// `depth`: what the centre of each pixel sees (front or back), along the optical axis; as large as the
+  /// photo or smaller. A point counts as hidden where it lies more than `tolerance` behind (in the unit of
+  /// the mesh).
+  PhotoSight(const Camera& camera, ImageF depth, Image8 trusted, double tolerance, double max_incidence_deg);
+
+  [[nodiscard]] const Camera& camera() const { return camera_; }
+  [[nodiscard]] const Image8& trusted() const { return trusted_; }
+
+  /// trust::none if the photo does not see the point, sees it too obliquely, or may not use what is there;
+  /// else how far the pixel it falls on is trusted. `normal`: the
+  /// surface's, smoothed; `face_normal`: of the face the point lies on; unit length, outwards. A point is
+  /// hidden if any of the sixteen pixels round it shows something in front of it: bilinear filtering blends
+  /// four of them, and with the others points up to a pixel away are safe as well.
+  [[nodiscard]] std::uint8_t sees(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                                  const Eigen::Vector3d& face_normal) const;
+
+  /// Whether the pixel lies in the photo, give or take `margin_px`.
+  [[nodiscard]] bool holds(const Eigen::Vector2d& pixel, double margin_px = 0) const;
+
+ private:
+  [[nodiscard]] bool hidden(const Camera::Projected& seen, const Eigen::Vector3d& point,
+                            const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
+                            double tolerance) const;
+
+  Camera camera_;
+  Eigen::Matrix3d camera_from_pixel_;  // K^-1
+  ImageF depth_;                       // perhaps smaller than the photo
+  Image8 trusted_;
+  double tolerance_;
+  double least_cosine_;
+};
+
+/// The photo's camera, reduced if the photo is larger than a depth map can be.
+[[nodiscard]] Camera depth_camera(const Camera& camera);
+
+/// How far one surface lies from the other where a camera sees both: three times the 95th percentile of the
+/// distance along the normal. 0 where they are the same; never more than 2 % of the extent.
+[[nodiscard]] double surface_deviation(const rendering::DepthMap& of_simplified,
+                                       const TriangleMesh& simplified, const rendering::DepthMap& of_full,
+                                       const Camera& camera);
+
+}  // namespace drape::texturing
