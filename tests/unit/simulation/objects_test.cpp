@@ -1,0 +1,107 @@
+#include "drape/simulation/objects.hpp"
+
+#include <gtest/gtest.h>
+
+#include "drape/geometry/bounding_box.hpp"
+#include "drape/geometry/mesh_topology.hpp"
+#include "drape/simulation/ray_caster.hpp"
+
+namespace drape::simulation {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double coarse = 2.5;
+
+/// The clutter has no finer mesh than it needs.
+double coarse_enough(ObjectKind kind) {
+  return kind == ObjectKind::teapot || kind == ObjectKind::statue ? coarse : 1;
+}
+
+class EveryObject : public testing::TestWithParam<ObjectKind> {};
+INSTANTIATE_TEST_SUITE_P(Objects, EveryObject,
+                         testing::Values(ObjectKind::teapot, ObjectKind::statue, ObjectKind::mug,
+                                         ObjectKind::apple, ObjectKind::books));
+
+TEST_P(EveryObject, IsOneClosedOutwardSurfaceOnTheTable) {
+  const TriangleMesh mesh = make_object({GetParam(), 1, coarse_enough(GetParam())});
+  EXPECT_EQ(problem_of(mesh), "");
+  const MeshTopology topology = mesh_topology(mesh);
+  EXPECT_TRUE(topology.closed_manifold());
+  EXPECT_EQ(topology.components, 1U);
+  EXPECT_GT(signed_volume(mesh), 0);
+  const BoundingBox box = bounding_box(mesh.vertices);
+  EXPECT_NEAR(box.min().z(), 0, 0.002);
+  EXPECT_LT(box.center().head<2>().norm(), 0.03);
+  EXPECT_EQ(mesh.normals.size(), mesh.vertices.size());
+  EXPECT_EQ(mesh.colors.size(), mesh.vertices.size());
+}
+
+TEST_P(EveryObject, NormalsPointOutwards) {
+  const TriangleMesh mesh = make_object({GetParam(), 1, coarse_enough(GetParam())});
+  const std::vector<Eigen::Vector3f> from_faces = vertex_normals(mesh);
+  std::size_t agree = 0;
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) agree += mesh.normals[i].dot(from_faces[i]) > 0.7F;
+  // Where edges are sharper than the mesh is fine the two may differ.
+  EXPECT_GT(static_cast<double>(agree), 0.9 * static_cast<double>(mesh.normals.size()));
+}
+
+TEST(Objects, DetailChangesTheFacesAndNotTheShape) {
+  for (const ObjectKind kind : {ObjectKind::teapot, ObjectKind::statue}) {
+    const TriangleMesh fine = make_object({kind, 1, 1.6});
+    const TriangleMesh rough = make_object({kind, 1, 3.2});
+    EXPECT_GT(fine.faces.size(), rough.faces.size() * 5 / 4);
+    EXPECT_NEAR(signed_volume(fine) / signed_volume(rough), 1, 0.04);
+  }
+}
+
+TEST(Objects, ScaleMultipliesLengthsAndKeepsThePaint) {
+  const ObjectSpec one{ObjectKind::teapot, 1, coarse};
+  const ObjectSpec three{ObjectKind::teapot, 3, coarse};
+  const TriangleMesh small = make_object(one);
+  const TriangleMesh large = make_object(three);
+  ASSERT_EQ(small.faces, large.faces);
+  for (std::size_t i = 0; i < small.vertices.size(); i += 7) {
+    EXPECT_LT((3 * small.vertices[i] - large.vertices[i]).norm(), 1e-12);
+    EXPECT_EQ(object_color(one, small.vertices[i]), small.colors[i]);
+  }
+}
+
+TEST(Objects, ColoursAreColours) {
+  for (const ObjectKind kind : {ObjectKind::teapot, ObjectKind::statue}) {
+    const ObjectSpec spec{kind, 1, coarse};
+    const TriangleMesh mesh = make_object(spec);
+    Eigen::Vector3f least = mesh.colors[0];
+    Eigen::Vector3f most = mesh.colors[0];
+    for (const Eigen::Vector3f& color : mesh.colors) {
+      least = least.cwiseMin(color);
+      most = most.cwiseMax(color);
+    }
+    EXPECT_GE(least.minCoeff(), 0);
+    EXPECT_LE(most.maxCoeff(), 1);
+    EXPECT_GT((most - least).minCoeff(), 0.3F);  // painted, not plain
+  }
+}
+
+TEST(Teapot, LightPassesThroughTheHandleAndNotThroughTheBody) {
+  const RayCaster caster(make_object({ObjectKind::teapot, 1, coarse}));
+  EXPECT_FALSE(caster.blocked({-0.078, -1, 0.057}, Vector3d::UnitY()));  // the handle's eye
+  EXPECT_TRUE(caster.blocked({-0.100, -1, 0.062}, Vector3d::UnitY()));   // the handle
+  EXPECT_TRUE(caster.blocked({0, -1, 0.05}, Vector3d::UnitY()));
+  EXPECT_TRUE(caster.blocked({0.095, -1, 0.088}, Vector3d::UnitY()));  // the spout
+}
+
+TEST(Statue, IsHollowFromBehind) {
+  const RayCaster caster(make_object({ObjectKind::statue, 1, coarse}));
+  for (const double height : {0.11, 0.15, 0.2}) {
+    const auto front = caster.first_hit({0, -1, height}, Vector3d::UnitY());
+    const auto back = caster.first_hit({0, 1, height}, -Vector3d::UnitY());
+    ASSERT_TRUE(front && back);
+    const double wall = (1 - back->distance) - (front->distance - 1);
+    EXPECT_GT(wall, 0.003) << height;
+    EXPECT_LT(wall, 0.012) << height;
+  }
+}
+
+}  // namespace
+}  // namespace drape::simulation
