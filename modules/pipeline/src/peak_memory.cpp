@@ -14,9 +14,9 @@ double peak_memory_mb() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     if (word == "VmHWM:") {
-      double kilobytes = 0;
-      status >> kilobytes;
-      return kilobytes / 1024;
+      double kibibytes = 0;
+      status >> kibibytes;
+      return kibibytes * 1024 / 1e6;
     }
     status.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }

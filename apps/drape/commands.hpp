@@ -1,0 +1,70 @@
+// What each subcommand does. main.cpp parses the command line into these arguments, and turns errors into
+// exit codes.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "progress_display.hpp"
+
+namespace drape::app {
+
+struct RunArguments {
+  std::filesystem::path config;
+  std::vector<std::string> sets;
+  std::optional<std::string> from;
+  std::optional<std::string> until;
+  std::optional<std::string> only;
+  std::optional<std::filesystem::path> workspace;
+  std::string name;
+  ProgressMode progress = ProgressMode::automatic;
+  bool quiet = false;
+  std::string command;  // the command line as it was typed
+};
+void run_command(const RunArguments& arguments, const std::atomic<bool>& stop);
+
+struct ExplainArguments {
+  std::filesystem::path config;
+  std::string stage;  // empty: all
+  std::vector<std::string> sets;
+  std::optional<std::filesystem::path> workspace;
+  std::string name;
+};
+void explain_command(const ExplainArguments& arguments);
+
+struct ValidateArguments {
+  std::filesystem::path config;
+  std::vector<std::string> sets;
+};
+void validate_command(const ValidateArguments& arguments);
+
+/// `where`: a workspace, or a configuration, whose workspace is meant.
+void status_command(const std::filesystem::path& where);
+
+struct NewArguments {
+  std::vector<std::filesystem::path> scans;
+  std::vector<std::filesystem::path> photos;
+  std::filesystem::path output;
+  bool force = false;  // write over an existing file
+};
+void new_command(const NewArguments& arguments);
+
+/// Writes the reference page; with `check` only compares, and says whether it is as the code makes it.
+[[nodiscard]] bool reference_command(const std::filesystem::path& file, bool check);
+
+struct SimulateArguments {
+  std::filesystem::path spec;
+  std::filesystem::path output;
+  std::vector<std::string> sets;
+  ProgressMode progress = ProgressMode::automatic;
+};
+void simulate_command(const SimulateArguments& arguments, const std::atomic<bool>& stop);
+
+/// drape, its compiler, and the libraries: name and version.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> versions();
+
+}  // namespace drape::app

@@ -1,0 +1,271 @@
+// drape: the command line. Parses, calls one command, and is the only place that catches, prints and exits.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <map>
+
+#include "commands.hpp"
+#include "drape/base/error.hpp"
+#include "drape/base/log.hpp"
+#include "drape/base/parallel.hpp"
+
+namespace {
+
+using namespace drape;
+using namespace drape::app;
+
+std::atomic<bool> stop_requested{false};
+std::atomic<int> stop_signal{0};
+
+void on_signal(int signal) {
+  stop_requested = true;
+  stop_signal = signal;
+  // A second one ends the program at once.
+  std::signal(signal, SIG_DFL);
+}
+
+std::string version_text() {
+  std::string text;
+  for (const auto& [name, version] : versions()) text += fmt::format("{} {}\n", name, version);
+  return text;
+}
+
+std::string command_line(int argc, char** argv) {
+  std::string text = "drape";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789_-+=./:,@%") == std::string::npos;
+    if (plain) {
+      text += " " + word;
+      continue;
+    }
+    text += " '";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += "'";
+  }
+  return text;
+}
+
+const std::map<std::string, ProgressMode> progress_modes = {
+    {"auto", ProgressMode::automatic}, {"plain", ProgressMode::plain}, {"json", ProgressMode::json}};
+
+// Every subcommand puts what it will do into `action`; it runs after the whole command line was understood.
+struct CommandLine {
+  CLI::App app{"drape: raw laser range scans and uncalibrated photos to a textured 3D model, unattended"};
+  std::function<int()> action;
+  int threads = 0;
+  bool quiet = false;
+  bool verbose = false;
+  ProgressMode progress = ProgressMode::automatic;
+
+  RunArguments run;
+  ExplainArguments explain;
+  ValidateArguments validate;
+  std::filesystem::path status = ".";
+  NewArguments create;
+  std::filesystem::path reference = "config/REFERENCE.md";
+  bool reference_check = false;
+  SimulateArguments simulate;
+
+  CommandLine() {
+    app.set_version_flag("--version", version_text(), "The versions of drape and its libraries");
+    app.require_subcommand(1);
+    app.add_option("--threads", threads, "The most threads; 0: one per core")->check(CLI::NonNegativeNumber);
+    app.add_flag("-q,--quiet", quiet, "Warnings and errors only");
+    app.add_flag("-v,--verbose", verbose, "Details too");
+    app.fallthrough();
+    add_run();
+    add_status();
+    add_explain();
+    add_validate();
+    add_new();
+    add_reference();
+    add_simulate();
+    app.footer(
+        "Examples:\n  drape new scans/*.ply --photo front.jpg -o statue.yaml\n  drape run statue.yaml\n"
+        "Each command has its own --help.");
+  }
+
+ private:
+  CLI::App* command(const std::string& name, const std::string& what, const std::string& example) {
+    CLI::App* sub = app.add_subcommand(name, what);
+    sub->footer("Example:\n  " + example);
+    return sub;
+  }
+
+  void add_sets(CLI::App* sub, std::vector<std::string>& sets) {
+    sub->add_option("--set", sets, "Takes the place of a value in the file; may be given again")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+  }
+
+  void add_progress(CLI::App* sub) {
+    sub->add_option("--progress", progress, "How to show progress: auto, plain or json")
+        ->transform(CLI::CheckedTransformer(progress_modes, CLI::ignore_case).description(""))
+        ->type_name("MODE");
+  }
+
+  void add_run() {
+    CLI::App* sub = command("run", "Run the stages of a configuration, as far as anything changed",
+                            "drape run config/teapot.yaml --set fill.max_hole_size_spacings=100");
+    sub->add_option("config", run.config, "The configuration")->required()->type_name("CONFIG");
+    sub->add_option("--from", run.from, "Run this stage and all later ones again")->type_name("STAGE");
+    sub->add_option("--until", run.until, "Stop after this stage")->type_name("STAGE");
+    sub->add_option("--only", run.only, "Run this stage again, and no other")->type_name("STAGE");
+    add_sets(sub, run.sets);
+    sub->add_option("--workspace", run.workspace, "Folder for the stages' results")->type_name("DIR");
+    sub->add_option("--name", run.name, "Name of the run; default: the configuration's")->type_name("NAME");
+    add_progress(sub);
+    sub->callback([this] {
+      action = [this] {
+        run.progress = progress;
+        run.quiet = quiet;
+        run_command(run, stop_requested);
+        return 0;
+      };
+    });
+  }
+
+  void add_status() {
+    CLI::App* sub = command("status", "List the runs of a workspace", "drape status config/teapot.yaml");
+    sub->add_option("where", status, "A workspace, a folder with one, or a configuration; default: here");
+    sub->callback([this] {
+      action = [this] {
+        status_command(status);
+        return 0;
+      };
+    });
+  }
+
+  void add_explain() {
+    CLI::App* sub = command("explain", "Say what would run again, and which option or file is the reason",
+                            "drape explain config/teapot.yaml --set mesh.method=advancing_front");
+    sub->add_option("config", explain.config, "The configuration")->required()->type_name("CONFIG");
+    sub->add_option("stage", explain.stage, "Only this stage")->type_name("STAGE");
+    add_sets(sub, explain.sets);
+    sub->add_option("--workspace", explain.workspace, "Folder for the stages' results")->type_name("DIR");
+    sub->add_option("--name", explain.name, "Name of the run; default: the configuration's")
+        ->type_name("NAME");
+    sub->callback([this] {
+      action = [this] {
+        explain_command(explain);
+        return 0;
+      };
+    });
+  }
+
+  void add_validate() {
+    CLI::App* sub = command("validate", "Check a configuration and the files it names, and run nothing",
+                            "drape validate config/teapot.yaml");
+    sub->add_option("config", validate.config, "The configuration")->required()->type_name("CONFIG");
+    add_sets(sub, validate.sets);
+    sub->callback([this] {
+      action = [this] {
+        validate_command(validate);
+        return 0;
+      };
+    });
+  }
+
+  void add_new() {
+    CLI::App* sub = command("new", "Write a configuration for scans (or one mesh) and photos",
+                            "drape new scans/*.ply --photo front.jpg --photo back.jpg -o statue.yaml");
+    sub->add_option("scans", create.scans, "Scan files, or one mesh; a Stanford .conf gives their poses")
+        ->required()
+        ->type_name("SCANS");
+    sub->add_option("--photo", create.photos, "A photo; may be given again")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    create.output = "drape.yaml";
+    sub->add_option("-o,--output", create.output, "The configuration to write; default: drape.yaml")
+        ->type_name("CONFIG");
+    sub->add_flag("--force", create.force, "Write over an existing file");
+    sub->callback([this] {
+      action = [this] {
+        new_command(create);
+        return 0;
+      };
+    });
+  }
+
+  void add_reference() {
+    CLI::App* sub = command("reference", "Write the reference page of all options",
+                            "drape reference config/REFERENCE.md");
+    sub->add_option("file", reference, "The page to write; default: config/REFERENCE.md")->type_name("FILE");
+    sub->add_flag("--check", reference_check,
+                  "Write nothing; exit with 65 if the page is not as it would be written");
+    sub->callback([this] {
+      action = [this] {
+        if (reference_command(reference, reference_check)) return 0;
+        throw input_error("{}: is stale; make it again with: drape reference {}", reference.string(),
+                          reference.string());
+      };
+    });
+  }
+
+  void add_simulate() {
+    CLI::App* sub =
+        command("simulate", "Make range scans and photos of a simulated object, with ground truth",
+                "drape simulate sample_scans/teapot.yaml -o /tmp/teapot");
+    sub->add_option("spec", simulate.spec, "YAML that describes object, scanner and camera")
+        ->required()
+        ->type_name("SPEC");
+    sub->add_option("-o,--output", simulate.output, "Folder to write; default: the name of SPEC beside it")
+        ->type_name("DIR");
+    add_sets(sub, simulate.sets);
+    add_progress(sub);
+    sub->callback([this] {
+      action = [this] {
+        simulate.progress = quiet ? ProgressMode::none : progress;
+        simulate_command(simulate, stop_requested);
+        return 0;
+      };
+    });
+  }
+};
+
+int report_error(const Error& error) {
+  fmt::print(stderr, "drape: {}\n", error.what());
+  if (error.code() == ErrorCode::bug)
+    fmt::print(stderr,
+               "drape: this is a bug of drape, not of your files; please report it with the run's log\n");
+  return exit_code(error.code());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  CommandLine line;
+  line.run.command = command_line(argc, argv);
+  try {
+    line.app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return line.app.exit(error);  // --help, --version
+    fmt::print(stderr, "drape: {}\nTry: drape --help\n", error.what());
+    return exit_code(ErrorCode::config);
+  }
+  try {
+    if (line.quiet) log::set_console_level(log::Level::warning);
+    if (line.verbose) log::set_console_level(log::Level::debug);
+    set_thread_count(line.threads);
+    return line.action();
+  } catch (const Interrupted&) {
+    fmt::print(stderr,
+               "drape: interrupted; what was finished is kept, and the same command goes on from there\n");
+    return 128 + (stop_signal == 0 ? SIGINT : stop_signal.load());
+  } catch (const Error& error) {
+    return report_error(error);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "drape: out of memory\n");
+    return exit_code(ErrorCode::try_again);
+  } catch (const std::exception& error) {
+    return report_error(Error(ErrorCode::bug, error.what()));
+  }
+}

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands.hpp"
+#include "drape/base/error.hpp"
+#include "drape/base/files.hpp"
+#include "drape/io/mesh_files.hpp"
+#include "drape/io/photo.hpp"
+#include "drape/io/scan_files.hpp"
+#include "drape/stages/units.hpp"
+
+namespace drape::app {
+namespace fs = std::filesystem;
+namespace {
+
+std::string quoted(const fs::path& path) {
+  std::string text = "\"";
+  for (const char c : path.generic_string())
+    text += (c == '"' || c == '\\') ? std::string("\\") + c : std::string(1, c);
+  return text + "\"";
+}
+
+// What a look at the first file says.
+struct Look {
+  bool is_mesh = false;
+  BoundingBox box;
+};
+
+Look look_at(const fs::path& file) {
+  const std::string kind = extension(file);
+  Look look;
+  if (kind == "obj" || kind == "stl" || kind == "off" || kind == "ply") {
+    try {
+      const TriangleMesh mesh = io::read_mesh(file);
+      look.is_mesh = !mesh.faces.empty();
+      look.box = bounding_box(mesh.vertices);
+    } catch (const Error&) {
+      if (kind != "ply") throw;  // a PLY without faces is a scan
+    }
+    if (look.is_mesh) return look;
+  }
+  for (const RangeScan& scan : io::read_scans(file)) look.box.extend(bounding_box(scan.cloud.positions));
+  return look;
+}
+
+}  // namespace
+
+void new_command(const NewArguments& arguments) {
+  if (!arguments.force && fs::exists(arguments.output))
+    throw config_error("{}: is there already; --force writes over it", arguments.output.string());
+  const fs::path folder = fs::absolute(arguments.output).parent_path();
+  const auto relative = [&](const fs::path& file) {
+    return fs::absolute(file).lexically_normal().lexically_relative(folder);
+  };
+
+  std::vector<fs::path> scans;
+  fs::path poses;
+  for (const fs::path& file : arguments.scans) {
+    if (!fs::exists(file)) throw input_error("{}: no such file", file.string());
+    if (extension(file) == "conf")
+      poses = file;
+    else
+      scans.push_back(file);
+  }
+  if (scans.empty()) throw config_error("no scan was given, only poses");
+  // Several files of one kind may hold faces too (a scanner's own meshes); only a single one is taken for a
+  // finished mesh.
+  const Look first = look_at(scans.front());
+  const bool is_mesh = first.is_mesh && scans.size() == 1;
+
+  std::string yaml = "# Every key that is not here has its default; config/REFERENCE.md lists all.\ninput:\n";
+  if (is_mesh) {
+    yaml += fmt::format("  mesh: {}\n", quoted(relative(scans.front())));
+  } else {
+    yaml += "  scans:\n";
+    for (const fs::path& scan : scans) yaml += fmt::format("    - {}\n", quoted(relative(scan)));
+    if (!poses.empty()) yaml += fmt::format("  poses: {}\n", quoted(relative(poses)));
+  }
+  const stages::UnitGuess guess = stages::guess_units(first.box);
+  yaml += fmt::format("  units: {}  # guessed: {}; correct it if that is wrong\n", guess.name, guess.reason);
+  yaml += "  up: z      # the axis that points up\n";
+  if (!arguments.photos.empty()) yaml += "  photos:\n";
+  for (const fs::path& file : arguments.photos) {
+    const io::Photo photo = io::read_photo(file);
+    yaml += fmt::format("    - image: {}", quoted(relative(file)));
+    yaml += fmt::format("  # {} x {} pixels", photo.rgb.width(), photo.rgb.height());
+    if (photo.focal_px_prior)
+      yaml += fmt::format(", EXIF says a focal length of {:.0f} px", *photo.focal_px_prior);
+    yaml += "\n      # mask: \"mask.png\"           # if you have one: white where the object is\n";
+    yaml += "      # box_px: [x, y, width, height]  # else a box round the object helps\n";
+  }
+  write_file(arguments.output, yaml);
+  fmt::print("{}\nnext: drape run {}\n", arguments.output.string(), arguments.output.string());
+}
+
+}  // namespace drape::app

@@ -1,0 +1,51 @@
+#include <fmt/core.h>
+
+#include "drape/base/error.hpp"
+#include "drape/base/random.hpp"
+#include "drape/io/photo.hpp"
+#include "drape/segmentation/segment_photo.hpp"
+#include "rows.hpp"
+#include "segments_json.hpp"
+
+namespace drape::stages {
+namespace {
+
+void run(const segmentation::SegmentOptions& options, pipeline::StageRun& run) {
+  const auto& photos = run.input().photos;
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    const pipeline::PhotoInput& input = photos[i];
+    const std::string name = input.image.filename().string();
+    const Progress progress =
+        run.progress().part(static_cast<double>(i) / static_cast<double>(photos.size()),
+                            static_cast<double>(i + 1) / static_cast<double>(photos.size()));
+    progress.update(0, name);
+    const io::Photo photo = io::read_photo(input.image);
+    // A mask that was made by hand says more than an alpha channel.
+    const Image8 mask = input.mask.empty()
+                            ? photo.alpha
+                            : io::read_stencil(input.mask, photo.rgb.width(), photo.rgb.height());
+    const segmentation::Segmentation segmented = segmentation::segment_photo(
+        photo.rgb, mask, {input.box_px, input.click_px}, options, item_seed(run.seed(), i), progress);
+    const std::string folder = three_digits(i);
+    io::write_image(run.output(folder + "/segments.png"), segmentation::paint_labels(segmented));
+    write_segments(run.output(folder + "/segments.json"), segmented);
+    io::write_image(run.output(folder + "/stencil.png"), segmented.stencil);
+    run.metric(fmt::format("{}_confidence", name), segmented.confidence);
+    run.metric(fmt::format("{}_how", name), segmented.how);
+  }
+}
+
+}  // namespace
+
+pipeline::Stage segment_stage() {
+  pipeline::Stage stage;
+  stage.name = "segment";
+  stage.summary = "Finds the object in each photo, without the mesh: segments and an image stencil.";
+  stage.input_parts = {"photos", "photo_regions"};
+  stage.writes = {"*/segments.png", "*/segments.json", "*/stencil.png"};
+  stage.applies = [](const pipeline::Input& input) { return !input.photos.empty(); };
+  stage.instantiate = pipeline::stage_body(run);
+  return stage;
+}
+
+}  // namespace drape::stages
