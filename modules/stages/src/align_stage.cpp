@@ -1,0 +1,136 @@
+#include <fmt/core.h>
+
+#include "drape/alignment/align.hpp"
+#include "drape/base/error.hpp"
+#include "drape/base/random.hpp"
+#include "drape/io/mesh_files.hpp"
+#include "drape/io/photo.hpp"
+#include "drape/io/records.hpp"
+#include "drape/rendering/renderer.hpp"
+#include "drape/report/overlay_picture.hpp"
+#include "rows.hpp"
+
+namespace drape::stages {
+namespace {
+
+io::Verdict to_record(alignment::Verdict verdict) {
+  switch (verdict) {
+    case alignment::Verdict::accept:
+      return io::Verdict::accept;
+    case alignment::Verdict::review:
+      return io::Verdict::review;
+    case alignment::Verdict::reject:
+      return io::Verdict::reject;
+  }
+  return io::Verdict::reject;
+}
+
+io::CameraRecord to_record(const alignment::Alignment& alignment) {
+  io::CameraRecord record;
+  record.camera = alignment.camera;
+  record.overlap_percent = alignment.overlap_percent;
+  record.verdict = to_record(alignment.verdict);
+  record.reasons = alignment.reasons;
+  record.evidence = "stencil";
+  record.method = alignment.method;
+  for (const alignment::Candidate& candidate : alignment.candidates)
+    record.candidates.push_back(
+        {candidate.camera.P(), candidate.overlap_percent, candidate.score, to_record(candidate.verdict)});
+  return record;
+}
+
+// The camera that input.cameras gives for this photo, in this workspace's frame; nothing if it names it not.
+std::optional<io::CameraRecord> given_camera(const io::CamerasRecord& given, const std::string& photo,
+                                             const io::WorkspaceFrame& frame) {
+  for (const io::CameraRecord& record : given.cameras) {
+    if (record.photo != photo) continue;
+    io::CameraRecord camera = record;
+    // Both frames are metres; they differ by their offsets: x_given = x_here + offset_here - offset_given.
+    const Eigen::Vector3d shift = frame.world_offset_m - given.frame.world_offset_m;
+    camera.camera.camera_from_world.translate(shift);
+    camera.verdict = io::Verdict::accept;
+    camera.reasons = {"given by input.cameras"};
+    camera.method = "given";
+    camera.candidates.clear();
+    camera.sigma.reset();
+    return camera;
+  }
+  return std::nullopt;
+}
+
+alignment::PhotoEvidence evidence_of(const Image8& stencil, const io::Photo& photo,
+                                     const pipeline::PhotoInput& input) {
+  alignment::PhotoEvidence evidence{stencil, photo.focal_px_prior};
+  if (input.camera.focal_px) evidence.focal_px_prior = input.camera.focal_px;
+  if (input.camera.K) evidence.focal_px_prior = (*input.camera.K)[0];
+  return evidence;
+}
+
+// Aligns photo number `index`, and writes its stencil and overlay.
+io::CameraRecord align_one(std::size_t index, const TriangleMesh& mesh, rendering::Renderer& renderer,
+                           const io::WorkspaceFrame& frame, const io::CamerasRecord& given,
+                           const alignment::AlignOptions& options, pipeline::StageRun& run,
+                           const Progress& progress) {
+  const pipeline::PhotoInput& input = run.input().photos[index];
+  const std::string name = input.image.filename().string();
+  progress.update(0, name);
+  const io::Photo photo = io::read_photo(input.image);
+  const std::string stencil_name = three_digits(index) + "/stencil.png";
+  const Image8 stencil =
+      io::read_stencil(run.artifact("segment", stencil_name), photo.rgb.width(), photo.rgb.height());
+  std::optional<io::CameraRecord> record = given_camera(given, name, frame);
+  if (!record) {
+    const alignment::Alignment alignment = alignment::align_photo(
+        mesh, evidence_of(stencil, photo, input), options, item_seed(run.seed(), index), progress);
+    record = to_record(alignment);
+    for (const auto& [metric, value] : alignment.metrics)
+      run.metric(fmt::format("{}_{}", name, metric), value);
+  }
+  record->photo = name;
+  record->stencil = stencil_name;
+  const Image8 model = renderer.stencil(record->camera);
+  if (record->method == "given") record->overlap_percent = alignment::overlap_percent(stencil, model);
+  io::write_image(run.output(stencil_name), stencil);
+  io::write_image(run.output(three_digits(index) + "/overlay.png"),
+                  report::overlay_picture(photo.rgb, stencil, model));
+  return *record;
+}
+
+void run(const alignment::AlignOptions& options, pipeline::StageRun& run) {
+  const TriangleMesh mesh = io::read_mesh(run.artifact("fill", "mesh.ply"));
+  io::CamerasRecord record;
+  record.frame = io::read_holes(run.artifact("fill", "holes.json")).frame;
+  io::CamerasRecord given;
+  if (!run.input().cameras.empty()) given = io::read_cameras(run.input().cameras);
+  rendering::Renderer renderer(mesh);
+  const std::size_t count = run.input().photos.size();
+  double least_overlap = 100;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Progress progress = run.progress().part(static_cast<double>(i) / static_cast<double>(count),
+                                                  static_cast<double>(i + 1) / static_cast<double>(count));
+    record.cameras.push_back(align_one(i, mesh, renderer, record.frame, given, options, run, progress));
+    const io::CameraRecord& camera = record.cameras.back();
+    least_overlap = std::min(least_overlap, camera.overlap_percent);
+    if (camera.verdict != io::Verdict::accept)
+      run.needs_review(fmt::format("{}: {}{}", camera.photo, to_string(camera.verdict),
+                                   camera.reasons.empty() ? "" : ": " + camera.reasons.front()));
+  }
+  io::write_cameras(run.output("cameras.json"), record);
+  run.metric("overlap_percent", least_overlap);
+}
+
+}  // namespace
+
+pipeline::Stage align_stage() {
+  pipeline::Stage stage;
+  stage.name = "align";
+  stage.summary = "Finds each photo's camera by matching the mesh's outline with the photo's stencil.";
+  stage.input_parts = {"photos", "photo_cameras", "cameras"};
+  stage.reads = {{"fill", "mesh.ply"}, {"fill", "holes.json"}, {"segment", "*/stencil.png"}};
+  stage.writes = {"cameras.json", "*/stencil.png", "*/overlay.png"};
+  stage.applies = [](const pipeline::Input& input) { return !input.photos.empty(); };
+  stage.instantiate = pipeline::stage_body(run);
+  return stage;
+}
+
+}  // namespace drape::stages
