@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "drape/base/files.hpp"
 #include "drape/report/page.hpp"
 #include "drape/report/readable_number.hpp"
@@ -56,7 +58,6 @@ report::RunPage page_of(const pipeline::Config& config, const pipeline::RunResul
   page.command_line = result.record.command;
   page.config_text = result.record.config_text;
   page.versions = versions;
-  page.pictures = headline_pictures(config, result);
   for (std::size_t i = 0; i < result.stages.size(); ++i) {
     page.stages.push_back(
         section_of(config.stages[i], result.stages[i], result.record.stages[i], config, result));
@@ -64,6 +65,14 @@ report::RunPage page_of(const pipeline::Config& config, const pipeline::RunResul
       if (metric.first == "overlap_percent" || metric.first == "seen_percent")
         page.numbers.push_back(to_number(metric));
   }
+  // What a person wants to see first: the textured model, or the mesh where there is no photo, and the
+  // overlays.
+  const bool textured =
+      std::any_of(page.stages.begin(), page.stages.end(),
+                  [](const report::StageSection& section) { return section.name == "texture"; });
+  for (const report::StageSection& section : page.stages)
+    if (section.name == (textured ? "texture" : "fill") || section.name == "align")
+      page.pictures.insert(page.pictures.end(), section.pictures.begin(), section.pictures.end());
   return page;
 }
 

@@ -46,7 +46,6 @@ class Results {
       if (known == stage) return folder / name;
     return {};
   }
-  [[nodiscard]] bool has(const std::string& stage) const { return !file(stage, "").empty(); }
   [[nodiscard]] const pipeline::Config& config() const { return config_; }
 
  private:
@@ -135,19 +134,6 @@ std::vector<report::Picture> stage_pictures(const std::string& stage, const pipe
   if (stage == "align") return overlays(results);
   if (stage == "texture") return model_from_sides(results);
   return {};
-}
-
-std::vector<report::Picture> headline_pictures(const pipeline::Config& config,
-                                               const pipeline::RunResult& result) {
-  const Results results(config, result);
-  std::vector<report::Picture> pictures;
-  if (results.has("texture"))
-    pictures = model_from_sides(results);
-  else if (results.has("fill"))
-    pictures = mesh_from_sides(results, "fill");
-  if (results.has("align"))
-    for (report::Picture& overlay : overlays(results)) pictures.push_back(std::move(overlay));
-  return pictures;
 }
 
 }  // namespace drape::stages

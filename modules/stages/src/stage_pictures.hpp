@@ -14,8 +14,4 @@ namespace drape::stages {
                                                           const pipeline::Config& config,
                                                           const pipeline::RunResult& result);
 
-/// What a person wants to see first: the textured model, or the mesh where there is no photo.
-[[nodiscard]] std::vector<report::Picture> headline_pictures(const pipeline::Config& config,
-                                                             const pipeline::RunResult& result);
-
 }  // namespace drape::stages

@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include "drape/base/files.hpp"
+#include "program.hpp"
+#include "support.hpp"
+
+namespace drape::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(CommandLine, VersionNamesTheLibraries) {
+  const Outcome outcome = run_drape({"--version"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* name : {"drape ", "PCL ", "CGAL ", "OpenCV ", "Eigen ", "OSMesa ", "yaml-cpp "})
+    EXPECT_TRUE(contains(outcome.out, name)) << name;
+}
+
+TEST(CommandLine, EveryHelpShowsAnExample) {
+  for (const char* command : {"run", "status", "explain", "validate", "new", "reference", "simulate"}) {
+    const Outcome outcome = run_drape({command, "--help"});
+    EXPECT_EQ(outcome.exit_code, 0) << command;
+    EXPECT_TRUE(contains(outcome.out, std::string("Example:\n  drape ") + command)) << outcome.out;
+  }
+  EXPECT_TRUE(contains(run_drape({"--help"}).out, "drape run statue.yaml"));
+}
+
+TEST(CommandLine, UsageErrorsExitWith64) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"drpae"},
+                                             {"run"},
+                                             {"run", "x.yaml", "--form", "mesh"},
+                                             {"run", "x.yaml", "--progress=loud"},
+                                             {"--threads", "-1", "status"}}) {
+    const Outcome outcome = run_drape(arguments);
+    EXPECT_EQ(outcome.exit_code, 64) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "drape: ")) << outcome.err;
+  }
+}
+
+TEST(CommandLine, NewWritesAConfigurationThatIsValid) {
+  const ScratchFolder folder;
+  fs::create_directories(folder / "scans");
+  for (const char* name : {"000.ply", "001.ply"})
+    fs::copy_file(source("sample_scans/teapot/scans") / name, folder / (std::string("scans/") + name));
+  fs::copy_file(source("sample_scans/teapot/photos/000.jpg"), folder / "front.jpg");
+  const std::vector<std::string> command = {"new", "scans/000.ply", "scans/001.ply", "--photo", "front.jpg",
+                                            "-o",  "mine.yaml"};
+  const Outcome made = run_drape(command, folder.path());
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  const std::string yaml = read_file(folder / "mine.yaml");
+  EXPECT_TRUE(contains(yaml, "scans/001.ply")) << yaml;
+  EXPECT_TRUE(contains(yaml, "image: \"front.jpg\"")) << yaml;
+  const Outcome valid = run_drape({"validate", "mine.yaml"}, folder.path());
+  EXPECT_EQ(valid.exit_code, 0) << valid.err;
+  EXPECT_TRUE(contains(valid.out, "ingest, register, mesh, fill, segment, align, texture, export"))
+      << valid.out;
+  EXPECT_EQ(run_drape(command, folder.path()).exit_code, 64);  // it is there already
+}
+
+TEST(CommandLine, NewTellsAMeshFromScans) {
+  const ScratchFolder folder;
+  write_file(folder / "box.off",
+             "OFF\n4 4 0\n0 0 0\n100 0 0\n0 100 0\n0 0 100\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  EXPECT_EQ(run_drape({"new", "box.off", "-o", "c.yaml"}, folder.path()).exit_code, 0);
+  EXPECT_TRUE(contains(read_file(folder / "c.yaml"), "mesh: \"box.off\""));
+  EXPECT_TRUE(contains(read_file(folder / "c.yaml"), "units: mm"));
+  const Outcome valid = run_drape({"validate", "c.yaml"}, folder.path());
+  EXPECT_TRUE(contains(valid.out, "stages    fill, export")) << valid.out << valid.err;
+}
+
+TEST(CommandLine, ReferenceIsCurrentAndCheckNoticesIfNot) {
+  EXPECT_EQ(run_drape({"reference", source("config/REFERENCE.md").string(), "--check"}).exit_code, 0)
+      << "make it again: drape reference config/REFERENCE.md";
+  const ScratchFolder folder;
+  EXPECT_EQ(run_drape({"reference", (folder / "r.md").string(), "--check"}).exit_code, 65);
+  EXPECT_EQ(run_drape({"reference", (folder / "r.md").string()}).exit_code, 0);
+  EXPECT_EQ(read_file(folder / "r.md"), read_file(source("config/REFERENCE.md")));
+}
+
+TEST(CommandLine, EveryShippedConfigurationIsValid) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(source("config"))) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++count;
+    const Outcome outcome = run_drape({"validate", entry.path().string()});
+    EXPECT_EQ(outcome.exit_code, 0) << entry.path() << outcome.err;
+  }
+  EXPECT_GE(count, 2U);
+}
+
+}  // namespace
+}  // namespace drape::test
