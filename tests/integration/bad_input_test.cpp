@@ -1,4 +1,5 @@
-// Whatever is wrong with the input: one clear message that names the file, the right exit code, nothing half-written.
+// Whatever is wrong with the input: one clear message that names the file, the right exit code, nothing
+// half-written.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,9 +43,12 @@ class BadInput : public ::testing::Test {
   void expect_refused(const std::string& yaml, int code, const std::vector<std::string>& words) {
     const Outcome outcome = run(yaml);
     EXPECT_EQ(outcome.exit_code, code) << outcome.err;
-    for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' in:\n" << outcome.err;
+    for (const std::string& word : words)
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << "'" << word << "' in:\n" << outcome.err;
     std::size_t messages = 0;
-    for (std::size_t at = outcome.err.find("drape: "); at != std::string::npos; at = outcome.err.find("drape: ", at + 1)) ++messages;
+    for (std::size_t at = outcome.err.find("drape: "); at != std::string::npos;
+         at = outcome.err.find("drape: ", at + 1))
+      ++messages;
     EXPECT_EQ(messages, 1U) << outcome.err;
     if (fs::exists(folder_ / "drape-workspace"))
       for (const auto& entry : fs::recursive_directory_iterator(folder_ / "drape-workspace"))
@@ -52,8 +56,12 @@ class BadInput : public ::testing::Test {
     EXPECT_FALSE(fs::exists(folder_ / "c-model"));
   }
 
-  static std::string mesh_config(const std::string& mesh) { return "input:\n  mesh: " + mesh + "\n  units: m\n"; }
-  static std::string scan_config(const std::string& scan) { return "input:\n  scans: [" + scan + "]\n  units: m\n"; }
+  static std::string mesh_config(const std::string& mesh) {
+    return "input:\n  mesh: " + mesh + "\n  units: m\n";
+  }
+  static std::string scan_config(const std::string& scan) {
+    return "input:\n  scans: [" + scan + "]\n  units: m\n";
+  }
   static std::string photo_config(const std::string& photo, const std::string& mask = "mask.png") {
     return mesh_config("ball.ply") + "  photos:\n    - {image: " + photo + ", mask: " + mask + "}\n" +
            "align: {first_pass_step_deg: 120, max_candidates_percent: 1}\n";
@@ -74,7 +82,9 @@ TEST_F(BadInput, MissingFile) {
 }
 
 TEST_F(BadInput, EmptyScan) {
-  write_file(folder_ / "empty.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n");
+  write_file(folder_ / "empty.ply",
+             "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+             "z\nend_header\n");
   expect_refused(scan_config("empty.ply"), 65, {"empty.ply"});
   write_file(folder_ / "nothing.ply", "");
   expect_refused(scan_config("nothing.ply"), 65, {"nothing.ply"});
@@ -84,12 +94,16 @@ TEST_F(BadInput, TruncatedPly) {
   const std::string whole = read_file(folder_ / "ball.ply");
   write_file(folder_ / "half.ply", whole.substr(0, whole.size() / 2));
   expect_refused(mesh_config("half.ply"), 65, {"half.ply", "byte"});
-  write_file(folder_ / "half.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 0\n");
+  write_file(folder_ / "half.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+             "z\nend_header\n0 0 0\n1 0\n");
   expect_refused(scan_config("half.ply"), 65, {"half.ply:9"});
 }
 
 TEST_F(BadInput, PlyWhoseCountsLie) {
-  write_file(folder_ / "lie.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\nproperty double x\nproperty double y\nproperty double z\nend_header\n");
+  write_file(folder_ / "lie.ply",
+             "ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\nproperty double x\nproperty "
+             "double y\nproperty double z\nend_header\n");
   expect_refused(scan_config("lie.ply"), 65, {"lie.ply"});
 }
 
@@ -104,24 +118,31 @@ TEST_F(BadInput, PhotoThatIsNoPicture) {
 }
 
 TEST_F(BadInput, HeicPhotoNamesAConverter) {
-  write_file(folder_ / "phone.heic", std::string("\0\0\0\x18" "ftypheic\0\0\0\0mif1heic", 24));
+  write_file(folder_ / "phone.heic", std::string("\0\0\0\x18"
+                                                 "ftypheic\0\0\0\0mif1heic",
+                                                 24));
   expect_refused(photo_config("phone.heic"), 65, {"phone.heic", "heif-convert"});
 }
 
-TEST_F(BadInput, EmptyStencil) { expect_refused(photo_config("photo.png", "black.png"), 65, {"black.png"}); }
+TEST_F(BadInput, EmptyStencil) {
+  expect_refused(photo_config("photo.png", "black.png"), 65, {"black.png"});
+}
 
 TEST_F(BadInput, MaskOfAnotherSize) {
   expect_refused(photo_config("photo.png", "small.png"), 65, {"small.png", "96"});
 }
 
 TEST_F(BadInput, UnknownKeyAndValueOutOfRange) {
-  expect_refused(mesh_config("ball.ply") + "fill:\n  max_hole_size_spacing: 3\n", 64,
-                 {"c.yaml:5:3: fill.max_hole_size_spacing: no such key; did you mean max_hole_size_spacings?"});
+  expect_refused(
+      mesh_config("ball.ply") + "fill:\n  max_hole_size_spacing: 3\n", 64,
+      {"c.yaml:5:3: fill.max_hole_size_spacing: no such key; did you mean max_hole_size_spacings?"});
   expect_refused(mesh_config("ball.ply") + "fill:\n  max_hole_size_spacings: -3\n", 64,
                  {"c.yaml:5:27: fill.max_hole_size_spacings = -3: is -3; must be within"});
 }
 
-TEST_F(BadInput, WhatIsNoYaml) { expect_refused("input: [1, 2\n", 64, {"c.yaml:"}); }
+TEST_F(BadInput, WhatIsNoYaml) {
+  expect_refused("input: [1, 2\n", 64, {"c.yaml:"});
+}
 
 TEST_F(BadInput, FoldersThatCannotBeWritten) {
   write_file(folder_ / "file", "x");

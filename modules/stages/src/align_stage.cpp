@@ -6,6 +6,7 @@
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/io/records.hpp"
+#include "drape/metrics/stencil_agreement.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "drape/report/overlay_picture.hpp"
 #include "rows.hpp"
@@ -89,7 +90,7 @@ io::CameraRecord align_one(std::size_t index, const TriangleMesh& mesh, renderin
   record->photo = name;
   record->stencil = stencil_name;
   const Image8 model = renderer.stencil(record->camera);
-  if (record->method == "given") record->overlap_percent = alignment::overlap_percent(stencil, model);
+  if (record->method == "given") record->overlap_percent = metrics::stencil_overlap(stencil, model).percent();
   io::write_image(run.output(stencil_name), stencil);
   io::write_image(run.output(three_digits(index) + "/overlay.png"),
                   report::overlay_picture(photo.rgb, stencil, model));
