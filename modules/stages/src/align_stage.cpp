@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "drape/alignment/align.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/random.hpp"
@@ -26,18 +28,52 @@ io::Verdict to_record(alignment::Verdict verdict) {
   return io::Verdict::reject;
 }
 
-io::CameraRecord to_record(const alignment::Alignment& alignment) {
+io::CameraRecord to_record(const alignment::Alignment& alignment, const std::string& method) {
   io::CameraRecord record;
   record.camera = alignment.camera;
   record.overlap_percent = alignment.overlap_percent;
   record.verdict = to_record(alignment.verdict);
   record.reasons = alignment.reasons;
   record.evidence = "stencil";
-  record.method = alignment.method;
-  for (const alignment::Candidate& candidate : alignment.candidates)
+  record.method = method;
+  for (const alignment::AlignmentCandidate& candidate : alignment.candidates)
     record.candidates.push_back(
-        {candidate.camera.P(), candidate.overlap_percent, candidate.score, to_record(candidate.verdict)});
+        {candidate.camera.P(), candidate.overlap_percent, candidate.score, record.verdict});
   return record;
+}
+
+// For a photo in which segmentation found nothing: the others of the run are aligned all the same.
+io::CameraRecord rejected(const Image8& stencil, const std::string& method) {
+  io::CameraRecord record;
+  record.camera.width = stencil.width();
+  record.camera.height = stencil.height();
+  record.verdict = io::Verdict::reject;
+  record.reasons = {"the object was not found in the photo; give a mask, box_px or click_px in input.photos"};
+  record.evidence = "stencil";
+  record.method = method;
+  return record;
+}
+
+bool shows_object(const Image8& stencil) {
+  const std::vector<std::uint8_t>& pixels = stencil.data();
+  return std::find(pixels.begin(), pixels.end(), stencil::object) != pixels.end();
+}
+
+void add_metrics(const std::string& photo, const alignment::AlignmentMetrics& metrics,
+                 pipeline::StageRun& run) {
+  run.metric(photo + "_pass1_s", metrics.pass1_seconds);
+  run.metric(photo + "_total_s", metrics.total_seconds);
+  run.metric(photo + "_candidates_listed", metrics.candidates_listed);
+  run.metric(photo + "_candidates_tried", metrics.candidates_tried);
+  run.metric(photo + "_stencils_drawn", static_cast<double>(metrics.stencils_drawn));
+}
+
+std::string method_name(const alignment::AlignOptions& options) {
+  switch (options.method) {
+    case alignment::Method::exhaustive:
+      return "exhaustive";
+  }
+  return "unknown";
 }
 
 // The camera that input.cameras gives for this photo, in this workspace's frame; nothing if it names it not.
@@ -80,16 +116,17 @@ io::CameraRecord align_one(std::size_t index, const TriangleMesh& mesh, renderin
   const Image8 stencil =
       io::read_stencil(run.artifact("segment", stencil_name), photo.rgb.width(), photo.rgb.height());
   std::optional<io::CameraRecord> record = given_camera(given, name, frame);
+  if (!record && !shows_object(stencil)) record = rejected(stencil, method_name(options));
   if (!record) {
     const alignment::Alignment alignment = alignment::align_photo(
         mesh, evidence_of(stencil, photo, input), options, item_seed(run.seed(), index), progress);
-    record = to_record(alignment);
-    for (const auto& [metric, value] : alignment.metrics)
-      run.metric(fmt::format("{}_{}", name, metric), value);
+    record = to_record(alignment, method_name(options));
+    add_metrics("photo_" + three_digits(index), alignment.metrics, run);
   }
   record->photo = name;
   record->stencil = stencil_name;
-  const Image8 model = renderer.stencil(record->camera);
+  const bool posed = record->verdict != io::Verdict::reject || !record->candidates.empty();
+  const Image8 model = posed ? renderer.stencil(record->camera) : Image8();
   if (record->method == "given") record->overlap_percent = metrics::stencil_overlap(stencil, model).percent();
   io::write_image(run.output(stencil_name), stencil);
   io::write_image(run.output(three_digits(index) + "/overlay.png"),

@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "drape/base/error.hpp"
 #include "drape/base/random.hpp"
 #include "drape/io/photo.hpp"
@@ -9,6 +11,14 @@
 
 namespace drape::stages {
 namespace {
+
+Image8 given_mask(const std::filesystem::path& file, const Image8& rgb) {
+  Image8 mask = io::read_stencil(file, rgb.width(), rgb.height());
+  const std::vector<std::uint8_t>& pixels = mask.data();
+  if (std::find(pixels.begin(), pixels.end(), stencil::object) == pixels.end())
+    throw input_error("{}: is an empty stencil: no pixel of it is object (white)", file.string());
+  return mask;
+}
 
 void run(const segmentation::SegmentOptions& options, pipeline::StageRun& run) {
   const auto& photos = run.input().photos;
@@ -21,17 +31,15 @@ void run(const segmentation::SegmentOptions& options, pipeline::StageRun& run) {
     progress.update(0, name);
     const io::Photo photo = io::read_photo(input.image);
     // A mask that was made by hand says more than an alpha channel.
-    const Image8 mask = input.mask.empty()
-                            ? photo.alpha
-                            : io::read_stencil(input.mask, photo.rgb.width(), photo.rgb.height());
+    const Image8 mask = input.mask.empty() ? photo.alpha : given_mask(input.mask, photo.rgb);
     const segmentation::Segmentation segmented = segmentation::segment_photo(
         photo.rgb, mask, {input.box_px, input.click_px}, options, item_seed(run.seed(), i), progress);
     const std::string folder = three_digits(i);
     io::write_image(run.output(folder + "/segments.png"), segmentation::paint_labels(segmented));
     write_segments(run.output(folder + "/segments.json"), segmented);
     io::write_image(run.output(folder + "/stencil.png"), segmented.stencil);
-    run.metric(fmt::format("{}_confidence", name), segmented.confidence);
-    run.metric(fmt::format("{}_how", name), segmented.how);
+    run.metric("photo_" + folder + "_confidence", segmented.confidence);
+    run.metric("photo_" + folder + "_how", segmented.how);
   }
 }
 
