@@ -85,6 +85,10 @@ std::vector<report::Picture> mesh_from_sides(const Results& results, const std::
 std::vector<report::Picture> model_from_sides(const Results& results) {
   report::TurntableStyle style;
   style.view = views_for(results.config());
+  // The first view is the first photo's, so that the side that was photographed is seen first.
+  const io::CamerasRecord cameras = io::read_cameras(results.file("align", "cameras.json"));
+  if (!cameras.cameras.empty())
+    style.view.front = cameras.cameras.front().camera.towards_camera(Eigen::Vector3d::Zero());
   const fs::path file = results.file("texture", "model.ply");
   return {picture("Textured model", "The textured model from several sides",
                   "Surface that no photo shows is left in one neutral colour.",

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
@@ -10,37 +8,33 @@
 namespace drape::stages {
 namespace {
 
-// A photo that may be draped: its pixels live as long as the view that refers to them.
+// A photo with its final stencil: its pixels live as long as the view that refers to them.
 struct LoadedView {
-  std::size_t photo_index;
   Image8 rgb;
   Image8 stencil;
-  const io::CameraRecord* camera;
 };
 
 std::vector<LoadedView> load_views(const io::CamerasRecord& record, const pipeline::StageRun& run) {
   std::vector<LoadedView> views;
   for (std::size_t i = 0; i < record.cameras.size(); ++i) {
-    const io::CameraRecord& camera = record.cameras[i];
-    if (camera.verdict == io::Verdict::reject) continue;
-    Image8 rgb = io::read_photo(run.input().photos[i].image).rgb;
-    Image8 stencil = io::read_stencil(run.artifact("align", camera.stencil), rgb.width(), rgb.height());
-    views.push_back({i, std::move(rgb), std::move(stencil), &camera});
+    LoadedView& view = views.emplace_back();
+    view.rgb = io::read_photo(run.input().photos[i].image).rgb;
+    view.stencil = io::read_stencil(run.artifact("align", record.cameras[i].stencil), view.rgb.width(),
+                                    view.rgb.height());
   }
   return views;
 }
 
-void write_pictures(const texturing::TextureResult& result, const std::vector<LoadedView>& views,
-                    pipeline::StageRun& run) {
+void write_pictures(const texturing::TextureResult& result, pipeline::StageRun& run) {
   std::vector<std::string> names;
   for (const Material& material : result.model.materials) {
     names.push_back(material.image.empty() ? "" : material.name + ".png");
     if (!material.image.empty()) io::write_image(run.output("textures/" + names.back()), material.image);
   }
   io::write_textured_ply(run.output("model.ply"), result.model, names);
-  for (std::size_t i = 0; i < result.coverage.size(); ++i)
-    io::write_image(run.output("textures/" + three_digits(views[i].photo_index) + "_coverage.png"),
-                    result.coverage[i]);
+  for (std::size_t i = 0; i < result.views.size(); ++i)
+    if (!result.views[i].coverage.empty())
+      io::write_image(run.output("textures/" + three_digits(i) + "_coverage.png"), result.views[i].coverage);
 }
 
 void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
@@ -49,16 +43,19 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
   const io::CamerasRecord record = io::read_cameras(run.artifact("align", "cameras.json"));
   const std::vector<LoadedView> loaded = load_views(record, run);
   std::vector<texturing::TextureView> views;
-  for (const LoadedView& view : loaded)
-    views.push_back({view.rgb, view.camera->camera, view.stencil, three_digits(view.photo_index) + "_color"});
+  for (std::size_t i = 0; i < loaded.size(); ++i)
+    views.push_back({loaded[i].rgb, record.cameras[i].camera, loaded[i].stencil, "color",
+                     record.cameras[i].verdict != io::Verdict::reject});
   const texturing::TextureResult result =
       texturing::texture_mesh(simplified, full, views, options, run.progress());
-  write_pictures(result, loaded, run);
+  write_pictures(result, run);
   run.metric("seen_percent", result.seen_percent);
-  run.metric("unseen_percent", result.unseen_percent);
   run.metric("filled_percent", result.filled_percent);
-  run.metric("background_texels_percent", result.background_texels_percent);
+  run.metric("unseen_percent", result.unseen_percent);
   run.metric("faces", static_cast<double>(result.model.mesh.faces.size()));
+  for (std::size_t i = 0; i < result.views.size(); ++i)
+    if (!result.views[i].reason.empty())
+      run.metric("photo_" + three_digits(i) + "_not_used", result.views[i].reason);
 }
 
 }  // namespace
