@@ -4,6 +4,7 @@
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/model_files.hpp"
+#include "drape/io/photo.hpp"
 #include "drape/io/records.hpp"
 #include "rows.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "drape/base/error.hpp"
 #include "drape/geometry/bounding_box.hpp"
-#include "drape/ingest/clean.hpp"
+#include "drape/ingest/clean_scan.hpp"
 #include "drape/io/records.hpp"
 #include "drape/io/scan_files.hpp"
 #include "drape/stages/units.hpp"
