@@ -5,7 +5,7 @@
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/records.hpp"
-#include "drape/meshing/fill_holes.hpp"
+#include "drape/meshing/hole_filling.hpp"
 #include "drape/stages/units.hpp"
 #include "posed_scans.hpp"
 #include "rows.hpp"
