@@ -4,7 +4,7 @@
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
 #include "drape/pipeline/config.hpp"
-#include "drape/simulation/simulate.hpp"
+#include "drape/simulation/simulation.hpp"
 
 namespace drape::app {
 

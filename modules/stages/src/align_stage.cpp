@@ -63,8 +63,8 @@ void add_metrics(const std::string& photo, const alignment::AlignmentMetrics& me
                  pipeline::StageRun& run) {
   run.metric(photo + "_pass1_s", metrics.pass1_seconds);
   run.metric(photo + "_total_s", metrics.total_seconds);
-  run.metric(photo + "_candidates_listed", metrics.candidates_listed);
-  run.metric(photo + "_candidates_tried", metrics.candidates_tried);
+  run.metric(photo + "_candidates_listed", static_cast<double>(metrics.candidates_listed));
+  run.metric(photo + "_candidates_tried", static_cast<double>(metrics.candidates_tried));
   run.metric(photo + "_stencils_drawn", static_cast<double>(metrics.stencils_drawn));
 }
 

@@ -32,9 +32,9 @@ void write_pictures(const texturing::TextureResult& result, pipeline::StageRun& 
     if (!material.image.empty()) io::write_image(run.output("textures/" + names.back()), material.image);
   }
   io::write_textured_ply(run.output("model.ply"), result.model, names);
-  for (std::size_t i = 0; i < result.views.size(); ++i)
-    if (!result.views[i].coverage.empty())
-      io::write_image(run.output("textures/" + three_digits(i) + "_coverage.png"), result.views[i].coverage);
+  for (std::size_t i = 0; i < result.coverage.size(); ++i)
+    if (!result.coverage[i].empty())
+      io::write_image(run.output("textures/" + three_digits(i) + "_coverage.png"), result.coverage[i]);
 }
 
 void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
