@@ -107,7 +107,7 @@ void Scene::place_clutter() {
   const std::array<Placement, 4> placements = {{{ObjectKind::books, {2.0, 1.45}, 30, 1.0},
                                                 {ObjectKind::mug, {-1.55, 1.5}, -150, 1.0},
                                                 {ObjectKind::apple, {-1.75, 0.62}, 40, 1.0},
-                                                {ObjectKind::apple, {0.95, 2.7}, 200, 0.9}}};
+                                                {ObjectKind::apple, {2.9, 2.3}, 200, 0.9}}};
   for (const Placement& placement : placements) {
     Eigen::Affine3d world_from_own = Eigen::Affine3d::Identity();
     world_from_own.translate(center_ + size_ * (world_from_set_.leftCols<2>() * placement.at));
