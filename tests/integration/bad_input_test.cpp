@@ -50,9 +50,10 @@ class BadInput : public ::testing::Test {
          at = outcome.err.find("drape: ", at + 1))
       ++messages;
     EXPECT_EQ(messages, 1U) << outcome.err;
-    if (fs::exists(folder_ / "drape-workspace"))
+    if (fs::exists(folder_ / "drape-workspace")) {
       for (const auto& entry : fs::recursive_directory_iterator(folder_ / "drape-workspace"))
         EXPECT_NE(entry.path().extension(), ".writing") << entry.path();
+    }
     EXPECT_FALSE(fs::exists(folder_ / "c-model"));
   }
 
@@ -96,7 +97,7 @@ TEST_F(BadInput, TruncatedPly) {
   expect_refused(mesh_config("half.ply"), 65, {"half.ply", "byte"});
   write_file(folder_ / "half.ply",
              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
-             "z\nend_header\n0 0 0\n1 0\n");
+             "z\nend_header\n0.00000 0.00000 0.00000\n1.00000 0.00000\n");
   expect_refused(scan_config("half.ply"), 65, {"half.ply:9"});
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string quoted(const fs::path& path) {
+std::string yaml_quoted(const fs::path& path) {
   return "\"" + path.string() + "\"";
 }
 
@@ -61,8 +61,8 @@ TEST(RealData, BunnyFromTenRawScansWithASimulatedPhoto) {
   io::write_image(folder / "photo.png", renderer.shaded(camera));
   io::write_image(folder / "mask.png", renderer.stencil(camera));
   write_file(folder / "bunny.yaml",
-             "input:\n  scans: [" + quoted(data("scans/bunny/*.ply").string()) + "]\n  poses: " +
-                 quoted(data("scans/bunny/bun.conf")) + "\n  units: m\n  up: y\n  photos:\n" +
+             "input:\n  scans: [" + yaml_quoted(data("scans/bunny/*.ply").string()) + "]\n  poses: " +
+                 yaml_quoted(data("scans/bunny/bun.conf")) + "\n  units: m\n  up: y\n  photos:\n" +
                  "    - {image: photo.png, mask: mask.png}\nfill:\n  max_hole_size_spacings: 200\n");
   const Outcome outcome = run_drape({"run", "bunny.yaml"}, folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -83,9 +83,9 @@ TEST(RealData, CanFromItsMeshPhotoAndMask) {
   const Image8 stencil =
       rendering::Renderer(can).stencil(true_camera("lmo_can", photo.width(), photo.height()));
   io::write_image(folder / "mask.png", stencil);
-  write_file(folder / "can.yaml", "input:\n  mesh: " + quoted(data("photos/lmo/can.ply")) +
+  write_file(folder / "can.yaml", "input:\n  mesh: " + yaml_quoted(data("photos/lmo/can.ply")) +
                                       "\n  units: mm\n  photos:\n    - image: " +
-                                      quoted(data("photos/lmo/can.png")) + "\n      mask: mask.png\n");
+                                      yaml_quoted(data("photos/lmo/can.png")) + "\n      mask: mask.png\n");
   const Outcome outcome = run_drape({"run", "can.yaml"}, folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(gltf_problems(folder / "can-model/model.glb"), std::vector<std::string>{});
