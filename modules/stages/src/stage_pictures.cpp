@@ -91,7 +91,7 @@ std::vector<report::Picture> model_from_sides(const Results& results) {
     style.view.front = cameras.cameras.front().camera.towards_camera(Eigen::Vector3d::Zero());
   const fs::path file = results.file("texture", "model.ply");
   return {picture("Textured model", "The textured model from several sides",
-                  "Surface that no photo shows is left in one neutral colour.",
+                  "Surface that no photo shows keeps the scan's own colours, or one neutral colour.",
                   report::turntable(io::read_textured_ply(file, file.parent_path() / "textures"), style))};
 }
 

@@ -36,17 +36,19 @@ inline std::string zlib_stored(const std::string& data) {
     b = (b + a) % 65521;
   }
   const auto size = static_cast<std::uint16_t>(data.size());
-  return std::string("\x78\x01\x01") + raw(size, false) + raw(static_cast<std::uint16_t>(~size), false) + data + raw(b << 16 | a, true);
+  return std::string("\x78\x01\x01") + raw(size, false) + raw(static_cast<std::uint16_t>(~size), false) +
+         data + raw(b << 16 | a, true);
 }
 
 /// `rows`: the packed samples of each row, without the filter byte. `extra`: chunks before the pixels.
-inline std::string png_file(std::uint32_t width, std::uint32_t height, int bits, int color_type, const std::vector<std::string>& rows,
-                            const std::string& extra = {}) {
+inline std::string png_file(std::uint32_t width, std::uint32_t height, int bits, int color_type,
+                            const std::vector<std::string>& rows, const std::string& extra = {}) {
   std::string data;
   for (const std::string& row : rows) data += '\0' + row;
   return "\x89PNG\r\n\x1A\n" +
-         png_chunk("IHDR", raw(width, true) + raw(height, true) + static_cast<char>(bits) + static_cast<char>(color_type) + std::string(3, '\0')) + extra +
-         png_chunk("IDAT", zlib_stored(data)) + png_chunk("IEND", "");
+         png_chunk("IHDR", raw(width, true) + raw(height, true) + static_cast<char>(bits) +
+                               static_cast<char>(color_type) + std::string(3, '\0')) +
+         extra + png_chunk("IDAT", zlib_stored(data)) + png_chunk("IEND", "");
 }
 
 /// A TIFF directory, also the body of EXIF. Values longer than four bytes go behind the directory.
@@ -61,18 +63,25 @@ class TiffBuilder {
     add(tag, 3, static_cast<std::uint32_t>(values.size()), bytes);
   }
   void add_long(std::uint16_t tag, std::uint32_t value) { add(tag, 4, 1, raw(value, big_)); }
-  void add_ratio(std::uint16_t tag, std::uint32_t above, std::uint32_t below) { add(tag, 5, 1, raw(above, big_) + raw(below, big_)); }
+  void add_ratio(std::uint16_t tag, std::uint32_t above, std::uint32_t below) {
+    add(tag, 5, 1, raw(above, big_) + raw(below, big_));
+  }
   void add_undefined(std::uint16_t tag, const std::string& bytes) {
     add(tag, 7, static_cast<std::uint32_t>(bytes.size()), bytes);
   }
-  void add_text(std::uint16_t tag, const std::string& text) { add(tag, 2, static_cast<std::uint32_t>(text.size() + 1), text + '\0'); }
+  void add_text(std::uint16_t tag, const std::string& text) {
+    add(tag, 2, static_cast<std::uint32_t>(text.size() + 1), text + '\0');
+  }
   /// EXIF's own directory, behind this one.
-  void add_directory(std::uint16_t tag, const TiffBuilder& directory) { directories_.emplace_back(tag, directory); }
+  void add_directory(std::uint16_t tag, const TiffBuilder& directory) {
+    directories_.emplace_back(tag, directory);
+  }
   /// The pixels, behind the directory, named by StripOffsets and StripByteCounts.
   void add_pixels(const std::string& pixels) { pixels_ = pixels; }
 
   [[nodiscard]] std::string bytes() const {
-    const std::string head = (big_ ? std::string("MM") : std::string("II")) + raw(std::uint16_t{42}, big_) + raw(std::uint32_t{8}, big_);
+    const std::string head = (big_ ? std::string("MM") : std::string("II")) + raw(std::uint16_t{42}, big_) +
+                             raw(std::uint32_t{8}, big_);
     return head + body(8);
   }
 
@@ -83,7 +92,9 @@ class TiffBuilder {
     std::string value;
   };
 
-  void add(std::uint16_t tag, std::uint16_t type, std::uint32_t count, const std::string& value) { entries_.push_back({tag, type, count, value}); }
+  void add(std::uint16_t tag, std::uint16_t type, std::uint32_t count, const std::string& value) {
+    entries_.push_back({tag, type, count, value});
+  }
 
   /// The directory as it is at `offset`.
   [[nodiscard]] std::string body(std::uint32_t offset) const {
@@ -125,7 +136,8 @@ class TiffBuilder {
 /// A JPEG with an EXIF segment behind its start marker.
 inline std::string with_exif(const std::string& jpeg, const std::string& tiff) {
   const std::string data = std::string("Exif\0\0", 6) + tiff;
-  return jpeg.substr(0, 2) + "\xFF\xE1" + raw(static_cast<std::uint16_t>(data.size() + 2), true) + data + jpeg.substr(2);
+  return jpeg.substr(0, 2) + "\xFF\xE1" + raw(static_cast<std::uint16_t>(data.size() + 2), true) + data +
+         jpeg.substr(2);
 }
 
 }  // namespace drape::test
