@@ -56,6 +56,34 @@ Cleaned without_bad_faces(const TriangleMesh& mesh) {
   return {removed == 0 ? mesh : with_faces(mesh, keep), removed};
 }
 
+Cleaned without_flat_pockets(const TriangleMesh& mesh) {
+  // By their sorted vertices, with the parity of the sorting.
+  struct Turned {
+    Face sorted;
+    bool odd;
+    std::uint32_t face;
+  };
+  std::vector<Turned> faces;
+  for (std::uint32_t i = 0; i < mesh.faces.size(); ++i) {
+    Face f = mesh.faces[i];
+    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+    const bool odd = f[1] > f[2];
+    if (odd) std::swap(f[1], f[2]);
+    faces.push_back({f, odd, i});
+  }
+  std::sort(faces.begin(), faces.end(), [](const Turned& a, const Turned& b) {
+    return a.sorted != b.sorted ? a.sorted < b.sorted : a.face < b.face;
+  });
+  std::vector<std::uint8_t> keep(mesh.faces.size(), 1);
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+    if (faces[i].sorted == faces[i + 1].sorted && faces[i].odd != faces[i + 1].odd) {
+      keep[faces[i].face] = keep[faces[i + 1].face] = 0;
+      ++i;
+    }
+  const auto removed = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
+  return {removed == 0 ? mesh : with_faces(mesh, keep), removed};
+}
+
 Cleaned without_small_components(const TriangleMesh& mesh, double percent) {
   const std::vector<std::uint32_t> component = face_components(mesh);
   if (component.empty()) return {mesh, 0};

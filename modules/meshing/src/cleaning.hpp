@@ -15,6 +15,9 @@ struct Cleaned {
 /// Without faces that name a vertex twice or repeat an earlier face (in either orientation).
 [[nodiscard]] Cleaned without_bad_faces(const TriangleMesh& mesh);
 
+/// Without pairs of faces over the same vertices in opposite orientations: a closed surface stays closed.
+[[nodiscard]] Cleaned without_flat_pockets(const TriangleMesh& mesh);
+
 /// Without edge-connected pieces that hold less than `percent` of all faces; the largest always stays.
 /// `removed` counts pieces.
 [[nodiscard]] Cleaned without_small_components(const TriangleMesh& mesh, double percent);

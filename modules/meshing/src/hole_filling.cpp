@@ -105,7 +105,7 @@ FillResult fill_holes(const TriangleMesh& mesh, double spacing, const FillOption
     }
     result.holes.push_back(std::move(hole));
   }
-  Patched patched = with_patches(open, chosen, progress.part(0.1, 0.8));
+  Patched patched = with_patches(open, chosen, PatchStyle::smooth, progress.part(0.1, 0.8));
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     Hole& hole = result.holes[chosen_holes[i]];
     hole.filled = patched.holes[i].faces > 0;

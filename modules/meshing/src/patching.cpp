@@ -192,7 +192,8 @@ TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& w
 }  // namespace
 
 Patched with_patches(const TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& loops,
-                     const Progress& progress) {
+                     PatchStyle style, const Progress& progress) {
+  const Smoothness smoothness = style == PatchStyle::smooth ? Smoothness::faired : Smoothness::plain;
   Patched result;
   result.holes.resize(loops.size());
   const VertexFaces around(mesh);
@@ -200,7 +201,7 @@ Patched with_patches(const TriangleMesh& mesh, const std::vector<std::vector<std
   std::vector<std::size_t> hole_of;
   for (std::size_t i = 0; i < loops.size(); ++i)
     if (std::optional<HoleRegion> region = hole_region(mesh, around, loops[i])) {
-      works.push_back({loops[i], std::move(*region), {}, Smoothness::faired, {}, 0});
+      works.push_back({loops[i], std::move(*region), {}, smoothness, {}, 0});
       hole_of.push_back(i);
     }
   constexpr std::size_t holes_per_step = 64;

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "cleaning.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/kd_tree.hpp"
+#include "spot_mending.hpp"
 
 namespace drape::meshing {
 namespace {
@@ -58,8 +58,10 @@ TriangleMesh simplified(const TriangleMesh& mesh, std::size_t triangles) {
   result.faces.clear();
   for (std::size_t i = 0; i + 2 < left.size(); i += 3)
     result.faces.push_back({left[i], left[i + 1], left[i + 2]});
-  if (!mesh.filled.empty()) result.filled = filled_as_nearest(mesh, result.faces);
-  result = without_bad_faces(without_unused_vertices(result)).mesh;
+  // The library collapses an edge without a look at all the faces round it: now and then sheets get glued.
+  result.filled.clear();
+  result = with_spots_mended(result);
+  result.filled = mesh.filled.empty() ? std::vector<std::uint8_t>() : filled_as_nearest(mesh, result.faces);
   if (!result.normals.empty()) result.normals = vertex_normals(result);
   return result;
 }
