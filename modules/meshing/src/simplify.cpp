@@ -27,15 +27,15 @@ std::vector<float> centered_positions(const TriangleMesh& mesh) {
   return positions;
 }
 
-std::vector<std::uint8_t> filled_as_nearest(const TriangleMesh& mesh, const std::vector<Face>& faces) {
+std::vector<std::uint8_t> filled_as_nearest(const TriangleMesh& mesh, const TriangleMesh& made) {
   std::vector<Eigen::Vector3d> centroids;
   centroids.reserve(mesh.faces.size());
   for (const Face& f : mesh.faces) centroids.push_back(centroid(mesh, f));
   const KdTree tree(centroids);
   std::vector<std::uint8_t> filled;
-  for (const Face& f : faces) {
+  for (const Face& f : made.faces) {
     Neighbor nearest{};
-    tree.nearest(centroid(mesh, f), {&nearest, 1});
+    tree.nearest(centroid(made, f), {&nearest, 1});
     filled.push_back(mesh.filled[nearest.index]);
   }
   return filled;
@@ -61,7 +61,7 @@ TriangleMesh simplified(const TriangleMesh& mesh, std::size_t triangles) {
   // The library collapses an edge without a look at all the faces round it: now and then sheets get glued.
   result.filled.clear();
   result = with_spots_mended(result);
-  result.filled = mesh.filled.empty() ? std::vector<std::uint8_t>() : filled_as_nearest(mesh, result.faces);
+  result.filled = mesh.filled.empty() ? std::vector<std::uint8_t>() : filled_as_nearest(mesh, result);
   if (!result.normals.empty()) result.normals = vertex_normals(result);
   return result;
 }
