@@ -51,17 +51,21 @@ bool has_sound_normals(const PointCloud& cloud) {
 void refit_beside_dropped(std::vector<Eigen::Vector3f>& normals, const OrderedPoints& before,
                           const Flags& dropped, const std::vector<double>& reaches, std::size_t neighbors,
                           const std::vector<Eigen::Vector3d>& all_points) {
-  double furthest = 0;
-  for (std::size_t i = 0; i < reaches.size(); ++i)
-    if (dropped[i] == 0) furthest = std::max(furthest, reaches[i]);
+  // A few points reach very far, and looking around every dropped one that far would take for ever: they are
+  // fitted anew in any case.
+  std::vector<double> sorted = reaches;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  if (!sorted.empty()) std::nth_element(sorted.begin(), middle, sorted.end());
+  const double far = sorted.empty() ? 0.0 : 4 * *middle;
   Flags touched(dropped.size(), 0);
   std::vector<Eigen::Vector3d> kept;
   for (std::size_t i = 0; i < dropped.size(); ++i) {
     if (dropped[i] == 0) {
       kept.push_back(all_points[i]);
+      if (reaches[i] > far) touched[i] = 1;
       continue;
     }
-    for (const Neighbor& near : before.tree().within(all_points[i], furthest)) {
+    for (const Neighbor& near : before.tree().within(all_points[i], far)) {
       const std::uint32_t other = before.original(near.index);
       if (std::sqrt(near.squared_distance) <= reaches[other]) touched[other] = 1;
     }

@@ -76,10 +76,6 @@ Neighborhoods measure_neighborhoods(const OrderedPoints& points, std::size_t dis
   return result;
 }
 
-std::vector<double> mean_neighbor_distances(const OrderedPoints& points, std::size_t count) {
-  return measure_neighborhoods(points, count, 0).mean_distances;
-}
-
 std::vector<Eigen::Vector3f> normals_at(const OrderedPoints& points, std::span<const Eigen::Vector3d> queries,
                                         std::size_t neighbors) {
   std::vector<Eigen::Vector3f> normals(queries.size());

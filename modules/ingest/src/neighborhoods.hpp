@@ -44,9 +44,6 @@ struct Neighborhoods {
 [[nodiscard]] Neighborhoods measure_neighborhoods(const OrderedPoints& points, std::size_t distance_neighbors,
                                                   std::size_t normal_neighbors);
 
-/// Mean distance to the `count` nearest other points, in the caller's order.
-[[nodiscard]] std::vector<double> mean_neighbor_distances(const OrderedPoints& points, std::size_t count);
-
 /// plane_normal of the `neighbors` points nearest to each of the queries.
 [[nodiscard]] std::vector<Eigen::Vector3f> normals_at(const OrderedPoints& points,
                                                       std::span<const Eigen::Vector3d> queries,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drape/base/parallel.hpp"
 #include "lattice_view.hpp"
 #include "neighborhoods.hpp"
 
@@ -33,9 +32,20 @@ double lattice_step(const RangeScan& scan, const ScanView& view, int rows, int c
   return median(steps);
 }
 
+// Mean distance to the nearest others, at some ten thousand places: a median needs no more.
 double neighbor_spacing(const RangeScan& scan) {
   constexpr std::size_t nearest = 4;  // the neighbours at distance 1 on a square lattice
-  std::vector<double> distances = mean_neighbor_distances(OrderedPoints(scan.cloud.positions), nearest);
+  constexpr std::size_t places = 20'000;
+  const OrderedPoints ordered(scan.cloud.positions);
+  const std::size_t stride = std::max<std::size_t>(1, ordered.size() / places);
+  std::vector<double> distances;
+  std::vector<Neighbor> found(nearest + 1);
+  for (std::size_t i = 0; i < ordered.size(); i += stride) {
+    const std::size_t count = ordered.tree().nearest(ordered.points()[i], found);
+    double sum = 0;
+    for (std::size_t n = 1; n < count; ++n) sum += std::sqrt(found[n].squared_distance);
+    if (count > 1) distances.push_back(sum / static_cast<double>(count - 1));
+  }
   return median(distances);
 }
 

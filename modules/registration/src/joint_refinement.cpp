@@ -64,7 +64,10 @@ PairSystem pair_system(const ScanSurface& from, const ScanSurface& to, const Rig
     const Eigen::Vector3d normal = world_from_to.linear() * match->normal;
     Row row;
     row.jacobian << arm.cross(normal), normal;
-    row.residual = match->distance;
+    // Where samples lie further apart, as far off along diverging rays, ranges are less certain in
+    // proportion.
+    row.jacobian /= match->scale;
+    row.residual = match->distance / match->scale;
     row.weight = from.confidences()[i] * match->weight;
     rows.push_back(row);
   }

@@ -79,7 +79,8 @@ double seen_through_share(const ScanSurface& surface, const ScanSurface& viewer,
   std::size_t judged = 0;
   std::size_t seen_through = 0;
   for (const std::uint32_t i : surface.sample(5000)) {
-    const auto sighting = sight.of(viewer_from_surface * surface.points()[i]);
+    const Eigen::Vector3d point = viewer_from_surface * surface.points()[i];
+    const auto sighting = sight.of(point);
     if (!sighting) continue;
     const auto [x, y] = pixel_of(*sighting);
     // Only inside what the viewer saw, and in front of all that it saw around: edges may be a pixel off.
@@ -93,7 +94,7 @@ double seen_through_share(const ScanSurface& surface, const ScanSurface& viewer,
         }
     if (known < 9) continue;
     ++judged;
-    seen_through += sighting->depth < front - tolerance ? 1 : 0;
+    seen_through += sighting->depth < front - tolerance * viewer.scale_at(point) ? 1 : 0;
   }
   return judged > 0 ? static_cast<double>(seen_through) / static_cast<double>(judged) : 0.0;
 }

@@ -22,6 +22,10 @@ double Fit::rms() const {
   return matched > 0 ? std::sqrt(squares / static_cast<double>(matched)) : 0.0;
 }
 
+double Fit::scaled_rms() const {
+  return matched > 0 ? std::sqrt(scaled_squares / static_cast<double>(matched)) : 0.0;
+}
+
 double fine_reach(std::span<const ScanSurface> surfaces) {
   std::vector<double> spacings;
   std::vector<double> noises;
@@ -54,6 +58,7 @@ FitOnOthers fit_on_others(std::size_t which, std::span<const ScanSurface> surfac
       for (Fit* sum : {&fit.each[other], &of_sample[k]}) {
         ++sum->matched;
         sum->squares += match->distance * match->distance;
+        sum->scaled_squares += match->distance * match->distance / (match->scale * match->scale);
       }
     }
   }
@@ -61,6 +66,7 @@ FitOnOthers fit_on_others(std::size_t which, std::span<const ScanSurface> surfac
     if (sample.matched > 0) {
       ++fit.any.matched;
       fit.any.squares += sample.squares / static_cast<double>(sample.matched);
+      fit.any.scaled_squares += sample.scaled_squares / static_cast<double>(sample.matched);
     }
   return fit;
 }
@@ -81,7 +87,7 @@ double truncated_mean_square(const std::vector<FitOnOthers>& fits, double reach)
   double sum = 0;
   double samples = 0;
   for (const FitOnOthers& fit : fits) {
-    sum += fit.any.squares + static_cast<double>(fit.any.samples - fit.any.matched) * reach * reach;
+    sum += fit.any.scaled_squares + static_cast<double>(fit.any.samples - fit.any.matched) * reach * reach;
     samples += static_cast<double>(fit.any.samples);
   }
   return samples > 0 ? sum / samples : 0.0;

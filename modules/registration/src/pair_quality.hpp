@@ -14,12 +14,14 @@ namespace drape::registration {
 struct Fit {
   std::size_t samples = 0;
   std::size_t matched = 0;
-  double squares = 0;  // sum of squared plane distances of the matched
+  double squares = 0;         // sum of squared plane distances of the matched
+  double scaled_squares = 0;  // the same of distances divided by SurfaceMatch::scale
 
   [[nodiscard]] double overlap() const {
     return samples > 0 ? static_cast<double>(matched) / static_cast<double>(samples) : 0.0;
   }
   [[nodiscard]] double rms() const;
+  [[nodiscard]] double scaled_rms() const;
 };
 
 /// Distance within which points count as lying on a surface: 3 spacings, more where noise is larger than

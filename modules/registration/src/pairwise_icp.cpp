@@ -1,5 +1,6 @@
 #include "pairwise_icp.hpp"
 
+#include <pcl/console/print.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/correspondence_rejection_surface_normal.h>
 #include <pcl/registration/icp.h>
@@ -27,6 +28,20 @@ Cloud::Ptr to_pcl(const OrientedPoints& oriented, const Rigid3& motion, const Ei
   return cloud;
 }
 
+// PCL tells the console when it finds too few matches; here that is one way for a trial to end.
+class QuietPcl {
+ public:
+  QuietPcl() : level_(pcl::console::getVerbosityLevel()) {
+    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  }
+  ~QuietPcl() { pcl::console::setVerbosityLevel(level_); }
+  QuietPcl(const QuietPcl&) = delete;
+  QuietPcl& operator=(const QuietPcl&) = delete;
+
+ private:
+  pcl::console::VERBOSITY_LEVEL level_;
+};
+
 }  // namespace
 
 Rigid3 pairwise_icp(const OrientedPoints& source, const OrientedPoints& target,
@@ -38,6 +53,7 @@ Rigid3 pairwise_icp(const OrientedPoints& source, const OrientedPoints& target,
   for (const auto& p : target.points) unit = std::max(unit, (p - center).norm());
   if (!(unit > 0)) return target_from_source_guess;
 
+  const QuietPcl quiet;
   pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
   auto compatible = std::make_shared<pcl::registration::CorrespondenceRejectorSurfaceNormal>();
   compatible->setThreshold(std::cos(M_PI / 4));

@@ -96,10 +96,12 @@ std::string objection(const Fit& fit, const Rigid3& pose, std::size_t which,
   if (overlap_percent < options.min_overlap_percent || fit.matched == 0)
     return fmt::format("only {:.0f} % of its points came to lie on placed scans (min_overlap_percent: {:g})",
                        overlap_percent, options.min_overlap_percent);
-  const double rms_spacings = fit.rms() / surfaces[which].spacing();
-  if (rms_spacings > options.max_rms_spacings)
+  // Between noisy scans points lie sqrt(2) deviations off; where a wrong fit puts them, three.
+  const ScanSurface& surface = surfaces[which];
+  const double spacings = fit.scaled_rms() / std::max(surface.spacing(), 2 * surface.noise());
+  if (spacings > options.max_rms_spacings)
     return fmt::format("its points came to lie {:.2f} spacings off the placed scans (max_rms_spacings: {:g})",
-                       rms_spacings, options.max_rms_spacings);
+                       spacings, options.max_rms_spacings);
   // A pixel's depth is certain to within the reach on either side.
   const double seen_through = most_seen_through(pose, which, placed, surfaces, 2 * reach);
   if (seen_through > most_seen_through_share)

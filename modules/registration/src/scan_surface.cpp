@@ -26,15 +26,17 @@ bool span_a_surface(const std::vector<Eigen::Vector3d>& points) {
   return extents[1] > 1e-6 * extents[2];
 }
 
-// Median distance of sampled points to the planes of their neighbours, as a deviation.
-double plane_noise(const ScanSurface& surface, const KdTree& tree) {
+// Median distance of sampled points to the planes of their neighbours, as a deviation where the spacing is
+// the median one.
+double plane_noise(const ScanSurface& surface, const KdTree& tree, const ingest::LocalSpacing& local) {
   std::vector<double> distances;
   std::vector<Neighbor> found(5);
   for (const std::uint32_t i : surface.sample(2000)) {
     const std::size_t count = tree.nearest(surface.points()[i], found);
     for (std::size_t n = 1; n < count; ++n) {
       const std::uint32_t j = found[n].index;
-      distances.push_back(std::abs(surface.normals()[j].dot(surface.points()[i] - surface.points()[j])));
+      distances.push_back(std::abs(surface.normals()[j].dot(surface.points()[i] - surface.points()[j])) /
+                          local.ratio(surface.points()[j]));
     }
   }
   if (distances.empty()) return 0;
@@ -45,28 +47,29 @@ double plane_noise(const ScanSurface& surface, const KdTree& tree) {
 
 }  // namespace
 
-ScanSurface::ScanSurface(const RangeScan& scan) : view_(scan.view), box_(bounding_box(scan.cloud.positions)) {
+ScanSurface::ScanSurface(const RangeScan& scan)
+    : view_(scan.view),
+      box_(bounding_box(scan.cloud.positions)),
+      scan_spacing_(scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan)),
+      stride_(std::max<std::size_t>(1, (scan.cloud.size() + most_points - 1) / most_points)),
+      spacing_(scan_spacing_ * std::sqrt(static_cast<double>(stride_))),
+      local_spacing_(scan, spacing_) {
   const PointCloud& cloud = scan.cloud;
   const bool has_normals = cloud.normals.size() == cloud.size();
   const std::vector<Eigen::Vector3f> estimated =
       has_normals ? std::vector<Eigen::Vector3f>() : ingest::estimate_normals(scan);
   const std::vector<Eigen::Vector3f>& normals = has_normals ? cloud.normals : estimated;
-  scan_spacing_ = scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan);
-  const std::size_t stride = std::max<std::size_t>(1, (cloud.size() + most_points - 1) / most_points);
-  spacing_ = scan_spacing_ * std::sqrt(static_cast<double>(stride));
-  const ingest::LocalSpacing local(scan, spacing_);
 
   const std::vector<std::uint32_t> order = ingest::morton_order(cloud.positions);
-  for (std::size_t k = 0; k < order.size(); k += stride) {
+  for (std::size_t k = 0; k < order.size(); k += stride_) {
     const std::uint32_t i = order[k];
     points_.push_back(cloud.positions[i]);
     normals_.push_back(normals[i].cast<double>().normalized());
     confidences_.push_back(cloud.confidences.empty() ? 1.0 : static_cast<double>(cloud.confidences[i]));
-    spacings_.push_back(local.at(cloud.positions[i]));
   }
   tree_.emplace(points_);
   is_surface_ = spacing_ > 0 && span_a_surface(points_);
-  noise_ = plane_noise(*this, *tree_);
+  noise_ = plane_noise(*this, *tree_, local_spacing_);
 }
 
 std::vector<std::uint32_t> ScanSurface::sample(std::size_t count) const {
@@ -79,8 +82,10 @@ std::vector<std::uint32_t> ScanSurface::sample(std::size_t count) const {
 
 std::optional<SurfaceMatch> ScanSurface::match(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                                                double reach) const {
-  if (box_.squaredExteriorDistance(point) >= reach * reach) return std::nullopt;
-  const auto nearest = tree_->nearest_within(point, reach);
+  const double scale = local_spacing_.ratio(point);
+  const double local_reach = reach * scale;
+  if (box_.squaredExteriorDistance(point) >= local_reach * local_reach) return std::nullopt;
+  const auto nearest = tree_->nearest_within(point, local_reach);
   if (!nearest) return std::nullopt;
   const std::uint32_t i = nearest->index;
   if (normals_[i].dot(normal) < least_normal_cosine) return std::nullopt;
@@ -88,8 +93,8 @@ std::optional<SurfaceMatch> ScanSurface::match(const Eigen::Vector3d& point, con
   const double aside = std::sqrt(std::max(0.0, nearest->squared_distance - distance * distance));
   // Between samples the nearest is at most 0.7 spacings aside; a normal that is off adds to it with the
   // distance.
-  if (aside > 1.5 * spacings_[i] + 0.5 * std::abs(distance)) return std::nullopt;
-  return SurfaceMatch{points_[i], normals_[i], distance, confidences_[i]};
+  if (aside > 1.5 * local_spacing_.at(points_[i]) + 0.5 * std::abs(distance)) return std::nullopt;
+  return SurfaceMatch{points_[i], normals_[i], distance, confidences_[i], scale};
 }
 
 }  // namespace drape::registration

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/kd_tree.hpp"
 #include "drape/geometry/range_scan.hpp"
+#include "drape/ingest/point_spacing.hpp"
 
 namespace drape::registration {
 
@@ -21,6 +21,7 @@ struct SurfaceMatch {
   Eigen::Vector3d normal;
   double distance;  // of the point to the plane there, signed
   double weight;    // confidence of the surface
+  double scale;     // local over median spacing: what lies further off is less certain
 };
 
 /// Oriented points of one scan, in its own frame, evenly thinned where there are very many.
@@ -38,8 +39,10 @@ class ScanSurface {
   [[nodiscard]] double spacing() const { return spacing_; }
   /// Median distance of all the scan's points.
   [[nodiscard]] double scan_spacing() const { return scan_spacing_; }
-  /// Deviation of points from the planes of their neighbours.
+  /// Deviation of points from the planes of their neighbours, where the spacing is the median one.
   [[nodiscard]] double noise() const { return noise_; }
+  /// Local over median spacing at a point in this scan's frame.
+  [[nodiscard]] double scale_at(const Eigen::Vector3d& point) const { return local_spacing_.ratio(point); }
   /// Whether the points span a surface: not if there are too few, or they lie on a line.
   [[nodiscard]] bool is_surface() const { return is_surface_; }
 
@@ -47,21 +50,23 @@ class ScanSurface {
   [[nodiscard]] std::vector<std::uint32_t> sample(std::size_t count) const;
 
   /// The place on this surface that `point` (in this scan's frame, with `normal`) lies on or near: the
-  /// nearest point, if it is within `reach`, its normal is within 45 degrees, and `point` does not lie
-  /// beside the surface's border (Turk and Levoy 1994).
+  /// nearest point, if it is within `reach` (which holds where the spacing is the median one, and grows with
+  /// it), its normal is within 45 degrees, and `point` does not lie beside the surface's border (Turk and
+  /// Levoy 1994).
   [[nodiscard]] std::optional<SurfaceMatch> match(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                                                   double reach) const;
 
  private:
+  ScanView view_;
+  BoundingBox box_;
+  double scan_spacing_;
+  std::size_t stride_;
+  double spacing_;
+  ingest::LocalSpacing local_spacing_;
   std::vector<Eigen::Vector3d> points_;  // in Morton order
   std::vector<Eigen::Vector3d> normals_;
   std::vector<double> confidences_;
-  std::vector<double> spacings_;
-  ScanView view_;
-  BoundingBox box_;
   std::optional<KdTree> tree_;
-  double spacing_ = 0;
-  double scan_spacing_ = 0;
   double noise_ = 0;
   bool is_surface_ = false;
 };

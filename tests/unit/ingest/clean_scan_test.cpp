@@ -231,6 +231,40 @@ TEST(CleanScan, SmallIslandsByTheirSizeAndDistance) {
   }
 }
 
+TEST(CleanScan, SmallIslandsOfDivergingRays) {
+  const auto field = test::united(test::box_field({20, 20, 1}),
+                                  [box = test::box_field({2.4, 2.4, 1})](const Eigen::Vector3d& p) {
+                                    return box(p - Eigen::Vector3d(0, 0, 12));
+                                  });
+  CleanOptions options = keep_all();
+  options.min_island_points = 40;
+  options.island_gap_spacings = 3;
+  const RangeScan raw = scan_field(field, Rigid3::Identity(), {.diverging = true});
+  for (const RangeScan& scan : {raw, test::without_grid(raw)}) {
+    const CleanedScan cleaned = clean_scan(scan, options, {});
+    EXPECT_EQ(cleaned.dropped.at("island"), 36U) << "6 by 6 samples, 0.935 apart";
+    for (const auto& p : cleaned.scan.cloud.positions) EXPECT_LT(p.z(), 5);
+  }
+}
+
+TEST(CleanScan, FarSurfacesOfDivergingRaysAreNoIslands) {
+  // A wall along a logarithmic spiral round the eye: always seen at 45 degrees, its end 150 times as far as
+  // its start.
+  RangeScan raw;
+  raw.view = {ScanView::Kind::origin, Eigen::Vector3d::Zero()};
+  raw.grid = RangeGrid{20, 500, {}};
+  for (int row = 0; row < 20; ++row)
+    for (int column = 0; column < 500; ++column) {
+      const double around = 0.01 * column;
+      const Eigen::Vector3d ray(std::cos(around), std::sin(around), 0.01 * row);
+      raw.grid->cells.push_back(static_cast<std::int32_t>(raw.cloud.size()));
+      raw.cloud.positions.emplace_back(std::exp(around) * ray);
+    }
+  CleanOptions options = keep_all();
+  options.min_island_points = 5000;
+  EXPECT_EQ(clean_scan(raw, options, {}).dropped.at("island"), 0U);
+}
+
 TEST(CleanScan, NormalsOfTheFileStayUnlessAskedOtherwise) {
   RangeScan raw = scan_field(test::box_field({100, 100, 5}), Rigid3::Identity(), {});
   const Eigen::Vector3f odd = Eigen::Vector3f(0.6F, 0, -0.8F);

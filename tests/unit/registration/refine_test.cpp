@@ -134,14 +134,14 @@ TEST(Refine, MeasuresDistanceAndOverlap) {
   const Registration found = register_scans(
       scans, std::vector<std::optional<Rigid3>>{Rigid3::Identity(), beside}, {.method = Method::given}, {});
   for (const PlacedScan& scan : found.scans) {
-    // Half of 60 columns and, at the border, what lies within the reach of a nearest point: 1.5 columns.
-    EXPECT_NEAR(scan.overlap, 0.5, 0.04);
+    // 30 of 60 columns, and the one beside them: it lies within 1.5 spacings.
+    EXPECT_NEAR(scan.overlap, 31.0 / 60, 0.01);
     EXPECT_NEAR(scan.rms_m, noise * std::sqrt(2.0), 0.15 * noise);
   }
   ASSERT_EQ(found.pairs.size(), 1U);
   EXPECT_EQ(found.pairs[0].first, 0U);
   EXPECT_EQ(found.pairs[0].second, 1U);
-  EXPECT_NEAR(found.pairs[0].overlap, 0.5, 0.04);
+  EXPECT_NEAR(found.pairs[0].overlap, 31.0 / 60, 0.01);
   EXPECT_NEAR(found.pairs[0].rms_m, noise * std::sqrt(2.0), 0.15 * noise);
   EXPECT_EQ(found.pairs[0].rms_m, found.pairs[0].rms_before_m);
 }

@@ -39,9 +39,10 @@ inline void describe(Binder& b, RegisterOptions& o) {
   b.number(
       "min_overlap_percent", o.min_overlap_percent, {0, 100},
       "refine: a scan without a pose is placed only if this share of its points then lies on other scans");
-  b.number("max_rms_spacings", o.max_rms_spacings, {0, 1000},
-           "refine: a scan without a pose is placed only if its points lie this close to the other scans, "
-           "root mean square");
+  b.number(
+      "max_rms_spacings", o.max_rms_spacings, {0, 1000},
+      "refine: a scan without a pose is placed only if its points lie this close to the other scans, "
+      "root mean square; where a scan is noisier than finely sampled, twice its noise stands for a spacing");
   b.number("thin_spacings", o.thin_spacings, {0, 1000},
            "merge the points of the cloud that fall into one cube of this edge; 0 keeps every point");
 }
