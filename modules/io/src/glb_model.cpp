@@ -25,7 +25,7 @@ constexpr std::uint32_t magic_glb = 0x46546C67, chunk_json = 0x4E4F534A, chunk_b
 
 /// IEC 61966-2-1: sRGB to linear light.
 float linear(float value) {
-  const double s = std::clamp(static_cast<double>(value), 0.0, 1.0);
+  const double s = std::isfinite(value) ? std::clamp(static_cast<double>(value), 0.0, 1.0) : 0.0;
   return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "attribute_scale.hpp"
 #include "drape/base/log.hpp"
 #include "drape/base/numbers.hpp"
 #include "mesh_formats.hpp"
@@ -34,8 +35,7 @@ class ObjReader {
     if (mesh_.vertices.empty()) throw input_error("{}: holds no vertex (a line \"v x y z\")", file_);
     add_faces();
     keep_normals();
-    if (mesh_.colors.size() != mesh_.vertices.size()) mesh_.colors.clear();
-    scale_colors();
+    if (colors_.size() == mesh_.vertices.size()) mesh_.colors = scaled_colors(colors_);
     return std::move(mesh_);
   }
 
@@ -110,9 +110,7 @@ class ObjReader {
     }
     // Three numbers after x y z are a colour, four a colour and its alpha; one is a weight.
     if (count < 3) return;
-    const Eigen::Vector3d color(more[0], more[1], more[2]);
-    mesh_.colors.push_back(color.allFinite() ? Eigen::Vector3f(color.cast<float>())
-                                             : Eigen::Vector3f(0, 0, 0));
+    colors_.emplace_back(more[0], more[1], more[2]);
   }
 
   void face(Words& words) {
@@ -186,20 +184,11 @@ class ObjReader {
       mine = c.normal;
     }
     if (corners_.empty()) return;
-    mesh_.normals.reserve(of_vertex.size());
-    for (const std::uint32_t n : of_vertex) {
-      const Eigen::Vector3d normal = n == no_normal ? Eigen::Vector3d(0, 0, 0) : normals_[n];
-      mesh_.normals.push_back(normal.allFinite() ? Eigen::Vector3f(normal.stableNormalized().cast<float>())
-                                                 : Eigen::Vector3f(0, 0, 0));
-    }
-  }
-
-  /// Some programs write colours as 0..255.
-  void scale_colors() {
-    float most = 0;
-    for (const Eigen::Vector3f& color : mesh_.colors) most = std::max(most, color.maxCoeff());
-    for (Eigen::Vector3f& color : mesh_.colors)
-      color = (color / (most > 1 ? 255.0F : 1.0F)).cwiseMax(0.0F).cwiseMin(1.0F);
+    std::vector<Eigen::Vector3d> chosen;
+    chosen.reserve(of_vertex.size());
+    for (const std::uint32_t n : of_vertex)
+      chosen.push_back(n == no_normal ? Eigen::Vector3d(0, 0, 0) : normals_[n]);
+    mesh_.normals = unit_normals(chosen);
   }
 
   const std::string& file_;
@@ -207,6 +196,7 @@ class ObjReader {
   std::string joined_;
   TriangleMesh mesh_;
   std::vector<Eigen::Vector3d> normals_;
+  std::vector<Eigen::Vector3d> colors_;
   std::size_t texture_vertices_ = 0;
   std::vector<Corner> corners_;
   std::vector<Polygon> polygons_;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "attribute_scale.hpp"
 #include "drape/base/log.hpp"
 #include "drape/base/numbers.hpp"
 #include "mesh_formats.hpp"
@@ -23,8 +24,8 @@ class OffReader {
       throw line_error(file_, lines_.number(), "data go on after the last face that the header declares");
     if (skipped_ > 0)
       log::info("{}: {} faces with fewer than three different corners are left out", file_, skipped_);
-    if (mesh_.colors.size() != mesh_.vertices.size()) mesh_.colors.clear();
-    scale_colors();
+    mesh_.normals = unit_normals(vertex_normals_);
+    if (colors_.size() == mesh_.vertices.size()) mesh_.colors = scaled_colors(colors_);
     return std::move(mesh_);
   }
 
@@ -97,11 +98,7 @@ class OffReader {
   void vertex() {
     need_line("vertex");
     mesh_.vertices.push_back(triple());
-    if (normals_) {
-      const Eigen::Vector3d normal = triple();
-      mesh_.normals.push_back(normal.allFinite() ? Eigen::Vector3f(normal.stableNormalized().cast<float>())
-                                                 : Eigen::Vector3f(0, 0, 0));
-    }
+    if (normals_) vertex_normals_.push_back(triple());
     // Red, green, blue and often alpha; two numbers would be a texture coordinate.
     std::array<double, 6> more{};
     std::size_t found = 0;
@@ -109,9 +106,7 @@ class OffReader {
       if (found == more.size()) throw line_error(file_, lines_.number(), "too many numbers");
       more[found++] = number();
     }
-    if (found >= 3)
-      mesh_.colors.emplace_back(static_cast<float>(more[0]), static_cast<float>(more[1]),
-                                static_cast<float>(more[2]));
+    if (found >= 3) colors_.emplace_back(more[0], more[1], more[2]);
   }
 
   void face() {
@@ -135,16 +130,6 @@ class OffReader {
     if (append_fan(mesh_.faces, polygon_) == 0) ++skipped_;
   }
 
-  /// Colours are 0..1 or 0..255.
-  void scale_colors() {
-    float most = 0;
-    for (const Eigen::Vector3f& color : mesh_.colors) most = std::max(most, color.maxCoeff());
-    for (Eigen::Vector3f& color : mesh_.colors)
-      color = color.allFinite()
-                  ? Eigen::Vector3f((color / (most > 1 ? 255.0F : 1.0F)).cwiseMax(0.0F).cwiseMin(1.0F))
-                  : Eigen::Vector3f(0, 0, 0);
-  }
-
   const std::string& file_;
   TextLines lines_;
   Words words_{""};
@@ -153,6 +138,8 @@ class OffReader {
   std::uint64_t faces_ = 0;
   std::size_t skipped_ = 0;
   std::vector<std::uint32_t> polygon_;
+  std::vector<Eigen::Vector3d> vertex_normals_;
+  std::vector<Eigen::Vector3d> colors_;
   TriangleMesh mesh_;
 };
 

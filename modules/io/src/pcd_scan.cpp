@@ -6,9 +6,9 @@
 #include <cstring>
 #include <limits>
 
+#include "attribute_scale.hpp"
 #include "drape/base/log.hpp"
 #include "drape/base/numbers.hpp"
-#include "intensity_scale.hpp"
 #include "lzf.hpp"
 #include "scan_formats.hpp"
 #include "text_lines.hpp"
@@ -309,16 +309,17 @@ class PcdReader {
     };
     scan.cloud.positions.reserve(count);
     for (std::size_t i = 0; i < count; ++i) scan.cloud.positions.push_back(vector("x", "y", "z", i));
-    if (column("normal_x") && column("normal_y") && column("normal_z"))
-      for (std::size_t i = 0; i < count; ++i) {
-        const Eigen::Vector3d normal = vector("normal_x", "normal_y", "normal_z", i);
-        scan.cloud.normals.push_back(normal.allFinite()
-                                         ? Eigen::Vector3f(normal.stableNormalized().cast<float>())
-                                         : Eigen::Vector3f(0, 0, 0));
-      }
+    if (column("normal_x") && column("normal_y") && column("normal_z")) {
+      std::vector<Eigen::Vector3d> normals;
+      normals.reserve(count);
+      for (std::size_t i = 0; i < count; ++i)
+        normals.push_back(vector("normal_x", "normal_y", "normal_z", i));
+      scan.cloud.normals = unit_normals(normals);
+    }
     if (const Column* color = column("rgb") ? column("rgb") : column("rgba"))
       for (const double value : color->values) {
-        const auto bits = static_cast<std::uint32_t>(std::clamp(value, 0.0, 4294967295.0));
+        const auto bits =
+            static_cast<std::uint32_t>(std::isfinite(value) ? std::clamp(value, 0.0, 4294967295.0) : 0);
         scan.cloud.colors.emplace_back(static_cast<float>(bits >> 16 & 255) / 255.0F,
                                        static_cast<float>(bits >> 8 & 255) / 255.0F,
                                        static_cast<float>(bits & 255) / 255.0F);

@@ -1,3 +1,5 @@
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -103,8 +105,12 @@ ScanView view_of(const PlyFile& ply, bool has_grid) {
   const auto vector = [](const std::vector<double>& v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
   if (const auto origin = info_numbers(ply, "view_origin", 3); !origin.empty())
     return {ScanView::Kind::origin, vector(origin)};
-  if (const auto direction = info_numbers(ply, "view_direction", 3); !direction.empty())
-    return {ScanView::Kind::direction, vector(direction)};
+  if (const auto numbers = info_numbers(ply, "view_direction", 3); !numbers.empty()) {
+    const Eigen::Vector3d direction = vector(numbers);
+    if (std::abs(direction.norm() - 1) > 1e-6)
+      throw input_error("{}: the header's view_direction has length {}, not 1", ply.file, direction.norm());
+    return {ScanView::Kind::direction, direction};
+  }
   if (has_mark(ply.header)) return {};
   if (const PlyTable* camera = ply.table("camera"); camera != nullptr && camera->rows() > 0) {
     const PlyColumn* x = camera->column("view_px");
@@ -127,6 +133,10 @@ std::optional<Rigid3> pose_of(const PlyFile& ply) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column)
       pose.matrix()(row, column) = numbers[static_cast<std::size_t>(4 * row + column)];
+  const Eigen::Matrix3d R = pose.linear();
+  if (!((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6 &&
+        R.determinant() > 0))
+    throw input_error("{}: the header's world_from_scan is no rigid motion", ply.file);
   return pose;
 }
 
@@ -139,7 +149,7 @@ RangeScan scan_of(const PlyFile& ply) {
   if (has_mark(ply.header)) {
     scan.file = unescaped(ply.header.info("scan_file"));
     if (const auto index = info_numbers(ply, "index_in_file", 1); !index.empty())
-      scan.index_in_file = static_cast<int>(index[0]);
+      scan.index_in_file = static_cast<int>(std::clamp(index[0], 0.0, 1e9));
     if (const auto spacing = info_numbers(ply, "spacing", 1); !spacing.empty()) scan.spacing = spacing[0];
   }
   return scan;

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "intensity_scale.hpp"
+#include "attribute_scale.hpp"
 
 namespace drape::io {
 namespace {
@@ -33,42 +33,21 @@ double full_scale(const PlyColumn& column) {
   }
 }
 
-std::vector<Eigen::Vector3f> normals_of(const Columns& columns, std::size_t rows, bool exact) {
-  std::vector<Eigen::Vector3f> normals;
-  normals.reserve(rows);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const Eigen::Vector3d normal = triple(columns, i);
-    if (exact)
-      normals.emplace_back(normal.cast<float>());
-    else if (normal.allFinite())
-      normals.emplace_back(normal.stableNormalized().cast<float>());
-    else
-      normals.emplace_back(Eigen::Vector3f::Zero());
-  }
-  return normals;
+std::vector<Eigen::Vector3d> triples(const Columns& columns) {
+  std::vector<Eigen::Vector3d> values;
+  values.reserve(columns[0]->values.size());
+  for (std::size_t i = 0; i < columns[0]->values.size(); ++i) values.push_back(triple(columns, i));
+  return values;
 }
 
-std::vector<Eigen::Vector3f> colors_of(const Columns& columns, std::size_t rows, bool exact) {
-  double scale = full_scale(*columns[0]);
-  if (scale == 0) {
-    double most = 0;
-    for (const PlyColumn* column : columns)
-      for (const double value : column->values) most = std::max(most, std::isfinite(value) ? value : 0);
-    scale = exact || most <= 1 ? 1 : 255;
-  }
-  const auto channel = [&](double value) {
-    // The division that write_* undoes: byte / 255 in float.
-    const float scaled = static_cast<float>(value) / static_cast<float>(scale);
-    if (exact) return scaled;
-    return std::isfinite(scaled) ? std::clamp(scaled, 0.0F, 1.0F) : 0.0F;
-  };
-  std::vector<Eigen::Vector3f> colors;
-  colors.reserve(rows);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const Eigen::Vector3d color = triple(columns, i);
-    colors.emplace_back(channel(color.x()), channel(color.y()), channel(color.z()));
-  }
-  return colors;
+/// As they were written: floats, or bytes for 0..1.
+std::vector<Eigen::Vector3f> exact_floats(const Columns& columns) {
+  const bool bytes = columns[0]->property.type == PlyType::uint8;
+  std::vector<Eigen::Vector3f> values;
+  values.reserve(columns[0]->values.size());
+  for (std::size_t i = 0; i < columns[0]->values.size(); ++i)
+    values.emplace_back(triple(columns, i).cast<float>() / (bytes ? 255.0F : 1.0F));
+  return values;
 }
 
 std::vector<float> floats_of(const PlyColumn& column) {
@@ -126,23 +105,22 @@ PointCloud vertices_of(const PlyFile& ply) {
       table == nullptr ? Columns{} : Columns{table->column("x"), table->column("y"), table->column("z")};
   if (!complete(xyz)) throw input_error("{}: has no element \"vertex\" with x, y and z", ply.file);
   const bool exact = has_mark(ply.header);
-  const std::size_t rows = table->rows();
   PointCloud cloud;
-  cloud.positions.reserve(rows);
-  for (std::size_t i = 0; i < rows; ++i) cloud.positions.push_back(triple(xyz, i));
+  cloud.positions = triples(xyz);
 
   const Columns normal{table->column_of({"nx", "normal_x"}), table->column_of({"ny", "normal_y"}),
                        table->column_of({"nz", "normal_z"})};
-  if (complete(normal)) cloud.normals = normals_of(normal, rows, exact);
+  if (complete(normal)) cloud.normals = exact ? exact_floats(normal) : unit_normals(triples(normal));
   const Columns color{table->column_of({"red", "diffuse_red", "r"}),
                       table->column_of({"green", "diffuse_green", "g"}),
                       table->column_of({"blue", "diffuse_blue", "b"})};
-  if (complete(color)) cloud.colors = colors_of(color, rows, exact);
+  if (complete(color))
+    cloud.colors = exact ? exact_floats(color) : scaled_colors(triples(color), full_scale(*color[0]));
   if (const PlyColumn* c = table->column_of({"intensity", "scalar_Intensity", "scalar_intensity"});
       c && !c->property.list)
     cloud.intensities = exact ? floats_of(*c) : scaled_intensities(c->values, full_scale(*c));
   if (const PlyColumn* c = table->column("confidence"); c && !c->property.list)
-    cloud.confidences = floats_of(*c);
+    cloud.confidences = exact ? floats_of(*c) : clamped_confidences(c->values);
   return cloud;
 }
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "attribute_scale.hpp"
 #include "drape/base/log.hpp"
 #include "drape/base/numbers.hpp"
-#include "intensity_scale.hpp"
 #include "scan_formats.hpp"
 #include "text_lines.hpp"
 
@@ -296,22 +296,13 @@ class XyzReader {
       for (std::size_t i = 0; i < a->size(); ++i) add(Eigen::Vector3d((*a)[i], (*b)[i], (*c)[i]));
     };
     triples(Role::x, [&](const Eigen::Vector3d& p) { scan.cloud.positions.push_back(p); });
-    triples(Role::nx, [&](const Eigen::Vector3d& n) {
-      scan.cloud.normals.push_back(n.allFinite() ? Eigen::Vector3f(n.stableNormalized().cast<float>())
-                                                 : Eigen::Vector3f(0, 0, 0));
-    });
-    double most = 0;
-    triples(Role::red,
-            [&](const Eigen::Vector3d& c) { most = c.allFinite() ? std::max(most, c.maxCoeff()) : most; });
-    const float scale = most > 255 ? 65535.0F : most > 1 ? 255.0F : 1.0F;
-    triples(Role::red, [&](const Eigen::Vector3d& c) {
-      const Eigen::Vector3f color = c.cast<float>() / scale;
-      scan.cloud.colors.push_back(c.allFinite() ? Eigen::Vector3f(color.cwiseMax(0.0F).cwiseMin(1.0F))
-                                                : Eigen::Vector3f(0, 0, 0));
-    });
+    std::vector<Eigen::Vector3d> normals, colors;
+    triples(Role::nx, [&](const Eigen::Vector3d& n) { normals.push_back(n); });
+    triples(Role::red, [&](const Eigen::Vector3d& c) { colors.push_back(c); });
+    scan.cloud.normals = unit_normals(normals);
+    scan.cloud.colors = scaled_colors(colors);
     if (const auto* values = column(Role::intensity)) scan.cloud.intensities = scaled_intensities(*values);
-    if (const auto* values = column(Role::confidence))
-      for (const double value : *values) scan.cloud.confidences.push_back(static_cast<float>(value));
+    if (const auto* values = column(Role::confidence)) scan.cloud.confidences = clamped_confidences(*values);
     return scan;
   }
 

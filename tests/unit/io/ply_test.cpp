@@ -98,6 +98,31 @@ TEST(Ply, EveryTypeInBothByteOrders) {
   }
 }
 
+TEST(Ply, ForeignAttributesAreBroughtToOurMeaning) {
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\n" + xyz;
+  const PointCloud floats =
+      scans_of(head +
+               "property float nx\nproperty float ny\nproperty float nz\nproperty float red\n"
+               "property float green\nproperty float blue\nproperty float intensity\n"
+               "property float confidence\nend_header\n0 0 0 0 3 4 0 127.5 255 -2048 2\n"
+               "0 0 1 nan 0 0 nan 0 300 2047 nan\n1 0 0 0 0 0 51 1 2 -0.5 0.25\n")
+          .at(0)
+          .cloud;
+  EXPECT_EQ(floats.normals, (std::vector<Eigen::Vector3f>{{0, 0.6F, 0.8F}, {0, 0, 0}, {0, 0, 0}}));
+  EXPECT_EQ(floats.colors[2], Eigen::Vector3f(51.0F / 65535, 1.0F / 65535, 2.0F / 65535));
+  EXPECT_EQ(floats.colors[1].x(), 0.0F);
+  EXPECT_EQ(floats.intensities, (std::vector<float>{0, 1, 0.5F}));
+  EXPECT_EQ(floats.confidences, (std::vector<float>{1, 0, 0.25F}));
+  const PointCloud shorts =
+      scans_of(head +
+               "property ushort red\nproperty ushort green\nproperty ushort blue\nproperty uchar intensity\n"
+               "end_header\n0 0 0 65535 0 1 51\n0 0 1 0 0 0 0\n0 0 2 0 0 0 0\n")
+          .at(0)
+          .cloud;
+  EXPECT_EQ(shorts.colors[0], Eigen::Vector3f(1, 0, 1.0F / 65535));
+  EXPECT_EQ(shorts.intensities[0], 0.2F);
+}
+
 TEST(Ply, PointsThatAreNotFiniteAreLeftOutAndTheGridFollows) {
   const RangeScan scan =
       scans_of("ply\nformat ascii 1.0\nobj_info num_cols 2\nobj_info num_rows 2\nelement vertex 3\n" + xyz +
@@ -175,6 +200,11 @@ TEST(Ply, LiesAreNamedWithTheirPlace) {
   expect(binary + "element vertex 1\nproperty list char double l\n" + xyz + "end_header\n" +
              raw(std::int8_t{-1}) + std::string(12, '\0'),
          ": byte ", "no length");
+  // What drape's own header lines say.
+  const std::string point = "element vertex 1\n" + xyz + "end_header\n1 2 3\n";
+  expect(ascii + "obj_info view_direction 0 0 2\n" + point, ": ", "view_direction has length 2");
+  expect(ascii + "obj_info view_origin 0 0\n" + point, ": ", "should have 3 numbers");
+  expect(ascii + "obj_info world_from_scan 1 0 0 0 0 1 0 0 0 0 2 0\n" + point, ": ", "no rigid motion");
   // Grids.
   const std::string grid =
       "element range_grid 4\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n";
