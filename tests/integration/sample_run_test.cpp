@@ -101,6 +101,14 @@ TEST(SampleRun, StatueWithAHollowBackAndAGivenMask) {
   EXPECT_GE(true_overlap_percent(statue, "statue"), 90.0);
 }
 
+TEST(SampleRun, GridDelaunayOfEachScan) {
+  const SampleRun statue("statue");
+  const Outcome outcome = statue({"--set", "mesh.method=grid", "--set", "align.first_pass_step_deg=90",
+                                  "--set", "align.max_candidates_percent=1"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_whole_model(statue);
+}
+
 TEST(SampleRun, SameBytesForAnyNumberOfThreads) {
   // Coarse steps: what counts here is every stage's order of work, not the pose.
   const std::vector<std::string> quick = {"--set", "align.first_pass_step_deg=90", "--set",
