@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "drape/geometry/mesh_topology.hpp"
 #include "drape/ingest/clean_scan.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/scan_files.hpp"
@@ -61,7 +62,7 @@ TEST_P(RealMeshes, EveryHoleIsFilledAndNothingElseMoves) {
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) ASSERT_EQ(mesh.faces[i], result.mesh.faces[i]);
 }
 
-TEST(RealTeapot, TenLoopsInFourPieces) {
+TEST(RealTeapot, LoopsAreJoinedOrFilled) {
   if (!test::have_data("meshes/teapot.obj")) GTEST_SKIP() << "needs meshes/teapot.obj of DRAPE_TEST_DATA";
   const TriangleMesh mesh = io::read_mesh(test::data("meshes/teapot.obj"));
   FillOptions options;
@@ -69,7 +70,9 @@ TEST(RealTeapot, TenLoopsInFourPieces) {
     EXPECT_TRUE(hole.filled || hole.why == "outer border of an open sheet") << hole.why;
   options.keep_outer_border = false;
   const FillResult result = fill_holes(mesh, median_edge_length(mesh), options);
-  EXPECT_EQ(result.holes.size(), 10U);
+  // Borders with the same coordinates are joined first: those loops are gone before there is a hole to fill.
+  EXPECT_GT(boundary_loops(mesh).size(), result.holes.size());
+  EXPECT_GT(result.vertices_joined, 0U);
   EXPECT_TRUE(mesh_quality(result.mesh).closed());
 }
 
