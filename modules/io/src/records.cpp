@@ -356,6 +356,16 @@ void write_poses(const std::filesystem::path& file, const PosesRecord& record) {
                              {"reason", pose.reason},
                              {"rms_m", json_of(pose.rms_m, "rms_m")},
                              {"overlap", json_of(pose.overlap, "overlap")}});
+  root["pairs"] = Json::array();
+  for (const PairRecord& pair : record.pairs)
+    root["pairs"].push_back({{"first", pair.first},
+                             {"second", pair.second},
+                             {"rms_m", json_of(pair.rms_m, "rms_m")},
+                             {"overlap", json_of(pair.overlap, "overlap")},
+                             {"seen_through", json_of(pair.seen_through, "seen_through")},
+                             {"in_void", json_of(pair.in_void, "in_void")},
+                             {"verdict", pair.accepted ? "accept" : "reject"},
+                             {"reason", pair.reason}});
   save(file, root);
 }
 
@@ -374,6 +384,18 @@ PosesRecord read_poses(const std::filesystem::path& file) {
     record.scans.push_back({scan["file"].text(), static_cast<int>(scan["index_in_file"].integer(0, 1 << 30)),
                             scan["world_from_scan"].rigid(), status == "placed", scan["reason"].text(),
                             scan["rms_m"].number(), scan["overlap"].number()});
+  }
+  if (!root.has("pairs")) return record;  // older truth files have none
+  const Node pairs = root["pairs"];
+  const auto count = static_cast<std::int64_t>(record.scans.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Node pair = pairs.at(i);
+    const std::string verdict = pair["verdict"].text();
+    if (verdict != "accept" && verdict != "reject") throw pair["verdict"].error("should be accept or reject");
+    record.pairs.push_back({static_cast<std::size_t>(pair["first"].integer(0, count - 1)),
+                            static_cast<std::size_t>(pair["second"].integer(0, count - 1)),
+                            pair["rms_m"].number(), pair["overlap"].number(), pair["seen_through"].number(),
+                            pair["in_void"].number(), verdict == "accept", pair["reason"].text()});
   }
   return record;
 }

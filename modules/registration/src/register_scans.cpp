@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "drape/base/parallel.hpp"
+#include "global_placement.hpp"
 #include "joint_refinement.hpp"
 #include "merged_cloud.hpp"
 #include "pair_quality.hpp"
@@ -55,14 +56,24 @@ double mean_move(const ScanSurface& surface, const Rigid3& before, const Rigid3&
   return surface.size() > 0 ? sum / static_cast<double>(surface.size()) : 0.0;
 }
 
+// Without any pose, and without a search for them, the first scan with points is the world.
+std::optional<std::size_t> place_first(std::vector<PlacedScan>& scans,
+                                       const std::vector<ScanSurface>& surfaces) {
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    if (surfaces[i].size() > 0) {
+      scans[i].placed = true;
+      scans[i].reason = "no pose was given: its own frame is the world";
+      return i;
+    }
+  return std::nullopt;
+}
+
 // Joint refinement, taken back if it makes the fit worse.
-void refine(Registration& result, const std::vector<ScanSurface>& surfaces, double reach,
+void refine(Registration& result, const std::vector<ScanSurface>& surfaces, double start_reach, double reach,
             const std::vector<FitOnOthers>& before, std::optional<std::size_t> world_scan,
             const RegisterOptions& options, const Progress& progress) {
-  const double spacing = median_spacing(surfaces);
   const Mask use = mask_of(result.scans);
-  const JointOptions joint{options.max_distance_spacings * spacing, reach, 0.01 * spacing,
-                           options.iterations};
+  const JointOptions joint{start_reach, reach, 0.01 * median_spacing(surfaces), options.iterations};
   JointResult refined = refine_jointly(surfaces, poses_of(result.scans), use, joint, progress);
   result.iterations = refined.iterations;
   const auto after = measure_fits(surfaces, refined.world_from_scan, use, reach);
@@ -77,7 +88,29 @@ void refine(Registration& result, const std::vector<ScanSurface>& surfaces, doub
       world_scan ? result.scans[*world_scan].world_from_scan * refined.world_from_scan[*world_scan].inverse()
                  : Rigid3::Identity();
   for (std::size_t i = 0; i < surfaces.size(); ++i)
-    if (use[i] != 0) result.scans[i].world_from_scan = world_from_refined * refined.world_from_scan[i];
+    if (use[i] != 0 && i != world_scan)
+      result.scans[i].world_from_scan = world_from_refined * refined.world_from_scan[i];
+}
+
+// Takes back the scans that were found but, once all are refined, do not fit after all.
+void review_found(Registration& result, const GlobalPlacement& found, const Mask& came_with_pose,
+                  const std::vector<ScanSurface>& surfaces, double reach, const RegisterOptions& options) {
+  const auto fits = measure_fits(surfaces, poses_of(result.scans), mask_of(result.scans), reach);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    PlacedScan& scan = result.scans[i];
+    if (!scan.placed || came_with_pose[i] != 0 || i == found.world_scan) continue;
+    const double percent = 100 * fits[i].any.overlap();
+    std::string against = objection(i, result.scans, found.searched);
+    if (against.empty() && percent < options.min_overlap_percent)
+      against =
+          fmt::format("only {:.0f} % of its points came to lie on other scans (min_overlap_percent: {:g})",
+                      percent, options.min_overlap_percent);
+    if (against.empty()) {
+      scan.reason += fmt::format(" ({:.0f} % overlap)", percent);
+    } else {
+      scan = {.reason = "no pose was given, and none was found: " + against};
+    }
+  }
 }
 
 void report_quality(Registration& result, const std::vector<FitOnOthers>& before,
@@ -111,16 +144,27 @@ Registration register_scans(std::span<const RangeScan> scans,
   progress.update(0, "preparing the scans");
   const std::vector<ScanSurface> surfaces = surfaces_of(scans);
   const double reach = fine_reach(surfaces);
-  const GivenPlacement given = place_given(scans, given_world_from_scan);
-  result.scans = given.scans;
-  if (options.method == Method::refine && reach > 0)
-    result.scans =
-        place_by_icp(std::move(result.scans), scans, surfaces, reach, options, progress.part(0.1, 0.4));
-
+  result.scans = place_given(scans, given_world_from_scan);
+  if (options.method == Method::global)
+    for (PlacedScan& scan : result.scans) scan = {.reason = scan.reason};
+  const Mask came_with_pose = mask_of(result.scans);
+  const bool search = options.method == Method::automatic || options.method == Method::global;
+  const bool move = options.method != Method::given && reach > 0;
+  double start_reach = options.max_distance_spacings * median_spacing(surfaces);
+  GlobalPlacement found;
+  if (!search && std::count(came_with_pose.begin(), came_with_pose.end(), 1) == 0)
+    found.world_scan = place_first(result.scans, surfaces);
+  if (search && std::count(came_with_pose.begin(), came_with_pose.end(), 0) > 0) {
+    found = place_globally(result.scans, scans, surfaces, options, progress.part(0.1, 0.6));
+    result.scans = found.scans;
+    result.searched = found.pairs;
+    start_reach = std::max(start_reach, 2 * found.voxel);
+  }
   const std::vector<Rigid3> at_start = poses_of(result.scans);
   const auto before = measure_fits(surfaces, at_start, mask_of(result.scans), reach);
-  if (options.method == Method::refine && reach > 0)
-    refine(result, surfaces, reach, before, given.world_scan, options, progress.part(0.4, 0.9));
+  if (move)
+    refine(result, surfaces, start_reach, reach, before, found.world_scan, options, progress.part(0.6, 0.9));
+  if (!found.searched.empty()) review_found(result, found, came_with_pose, surfaces, reach, options);
 
   const Mask use = mask_of(result.scans);
   report_quality(result, before, measure_fits(surfaces, poses_of(result.scans), use, reach));

@@ -50,7 +50,7 @@ std::vector<std::optional<Rigid3>> given_poses(const std::vector<RangeScan>& sca
 
 void write_records(const std::vector<RangeScan>& scans, const io::WorkspaceFrame& frame,
                    const registration::Registration& result, pipeline::StageRun& run) {
-  io::PosesRecord record{frame, {}};
+  io::PosesRecord record{frame, {}, {}};
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const registration::PlacedScan& placed = result.scans[i];
     record.scans.push_back({scans[i].file, scans[i].index_in_file, placed.world_from_scan, placed.placed,
@@ -59,6 +59,9 @@ void write_records(const std::vector<RangeScan>& scans, const io::WorkspaceFrame
     log::warn("{} is not placed: {}", scans[i].file, placed.reason);
     run.needs_review(fmt::format("{} is not placed: {}", scans[i].file, placed.reason));
   }
+  for (const registration::SearchedPair& pair : result.searched)
+    record.pairs.push_back({pair.first, pair.second, pair.rms_m, pair.overlap, pair.seen_through,
+                            pair.in_void, pair.accepted, pair.reason});
   io::write_poses(run.output("poses.json"), record);
   io::write_cloud_ply(run.output("cloud.ply"), result.merged);
 }
@@ -71,7 +74,7 @@ void run(const registration::RegisterOptions& options, pipeline::StageRun& run) 
       registration::register_scans(scans, given, options, run.progress());
   const auto placed = std::count_if(result.scans.begin(), result.scans.end(),
                                     [](const registration::PlacedScan& scan) { return scan.placed; });
-  if (placed == 0) throw input_error("no scan could be placed; give poses (input.poses)");
+  if (placed == 0) throw input_error("no scan could be placed: none has points");
   write_records(scans, frame, result, run);
   double worst_rms = 0;
   for (const registration::PlacedScan& scan : result.scans) worst_rms = std::max(worst_rms, scan.rms_m);
@@ -86,7 +89,10 @@ void run(const registration::RegisterOptions& options, pipeline::StageRun& run) 
 pipeline::Stage register_stage() {
   pipeline::Stage stage;
   stage.name = "register";
-  stage.summary = "Puts all scans into one frame: given poses, refined on the scans' overlaps.";
+  stage.version = 2;
+  stage.summary =
+      "Puts all scans into one frame: by given poses, or by the shape of the surfaces; refined on the scans' "
+      "overlaps.";
   stage.input_parts = {"poses"};
   stage.reads = {{"ingest", "scans.json"}, {"ingest", "scans/*.ply"}};
   stage.writes = {"poses.json", "cloud.ply"};

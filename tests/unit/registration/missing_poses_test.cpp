@@ -22,7 +22,7 @@ TEST(MissingPoses, AScanIsPlacedByItsOverlap) {
   EXPECT_LT(test::relative_error(shape, found), 0.05);
 }
 
-TEST(MissingPoses, OnlyRefinePlacesThem) {
+TEST(MissingPoses, OnlyTheSearchPlacesThem) {
   const ScannedShape shape = test::scan_from_sides(test::balls_field(), 0.05);
   auto given = shape.given();
   given[1].reset();
@@ -66,14 +66,6 @@ TEST(MissingPoses, AnotherObjectIsNotForcedIn) {
   EXPECT_TRUE(contains(found.scans[1].reason, "no pose was given, and none was found"))
       << found.scans[1].reason;
   EXPECT_EQ(found.merged.size(), 3600U);
-}
-
-TEST(MissingPoses, TheLimitsAreOptions) {
-  const auto balls = test::scan_field(test::balls_field(), Rigid3::Identity(), {.noise = 0.05, .seed = 9});
-  const Registration strict = waves_and(balls, {.min_overlap_percent = 100});
-  EXPECT_TRUE(contains(strict.scans[1].reason, "min_overlap_percent: 100")) << strict.scans[1].reason;
-  const Registration close = waves_and(balls, {.min_overlap_percent = 0, .max_rms_spacings = 0});
-  EXPECT_TRUE(contains(close.scans[1].reason, "max_rms_spacings: 0")) << close.scans[1].reason;
 }
 
 TEST(MissingPoses, WhatTheOtherScanLookedThroughIsNoPlace) {

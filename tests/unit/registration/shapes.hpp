@@ -59,6 +59,24 @@ inline Rigid3 perturbed(const Rigid3& pose, double degrees, double shift, std::u
   return Eigen::Translation3d(shift * direction()) * rotation_deg(degrees, axis) * pose;
 }
 
+/// The same scans, each in a frame of its own that is turned and shifted anyhow.
+inline ScannedShape turned_anyhow(ScannedShape shape, std::uint64_t seed) {
+  Rng rng(seed);
+  for (std::size_t i = 0; i < shape.scans.size(); ++i) {
+    Eigen::Quaterniond turn(rng.normal(), rng.normal(), rng.normal(), rng.normal());
+    Rigid3 own_from_scan(turn.normalized());
+    own_from_scan.translation() = 50 * Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal());
+    RangeScan& scan = shape.scans[i];
+    for (auto& p : scan.cloud.positions) p = own_from_scan * p;
+    for (auto& n : scan.cloud.normals) n = own_from_scan.linear().cast<float>() * n;
+    scan.view.vector = scan.view.kind == ScanView::Kind::origin
+                           ? Eigen::Vector3d(own_from_scan * scan.view.vector)
+                           : Eigen::Vector3d(own_from_scan.linear() * scan.view.vector);
+    shape.world_from_scan[i] = shape.world_from_scan[i] * own_from_scan.inverse();
+  }
+  return shape;
+}
+
 /// Mean distance of the scans' points from where the true poses put them relative to the first scan.
 inline double relative_error(const ScannedShape& shape, const registration::Registration& found) {
   const Rigid3 true_from_found = shape.world_from_scan[0] * found.scans[0].world_from_scan.inverse();

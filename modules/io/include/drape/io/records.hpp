@@ -58,9 +58,21 @@ struct PoseRecord {
   double rms_m = 0;    // point-to-plane residual of its overlap with the others
   double overlap = 0;  // share of its points that lie on another scan's surface, 0..1
 };
+/// Two scans that were compared without a guess.
+struct PairRecord {
+  std::size_t first = 0;  // in the order of scans.json
+  std::size_t second = 0;
+  double rms_m = 0;
+  double overlap = 0;       // the larger of the two shares of points on the other's surface, 0..1
+  double seen_through = 0;  // the larger of the two shares that lies where the other looked through, 0..1
+  double in_void = 0;       // the same of what lies where the other saw nothing at all
+  bool accepted = false;    // "verdict": "accept" or "reject"
+  std::string reason;       // why not
+};
 struct PosesRecord {
   WorkspaceFrame frame;
   std::vector<PoseRecord> scans;  // in the order of scans.json
+  std::vector<PairRecord> pairs;  // empty where poses were given
 };
 void write_poses(const std::filesystem::path& file, const PosesRecord& record);
 [[nodiscard]] PosesRecord read_poses(const std::filesystem::path& file);

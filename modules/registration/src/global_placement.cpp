@@ -1,0 +1,205 @@
+#include "global_placement.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <optional>
+
+#include "drape/base/parallel.hpp"
+#include "pair_search.hpp"
+#include "placement.hpp"
+#include "scan_graph.hpp"
+
+namespace drape::registration {
+namespace {
+
+constexpr std::size_t coarse_points = 2500;
+constexpr std::size_t candidates_per_pair = 2;
+constexpr std::size_t sequence_window = 2;
+constexpr double loop_tolerance_voxels = 4;
+// Poses from a chain of pairs are a voxel or so off, and edges then hang over: more than in a pair.
+constexpr double most_contradiction_in_group = 0.05;
+
+struct Pair {
+  std::size_t source;
+  std::size_t target;
+};
+
+std::vector<Pair> pairs_to_search(const std::vector<PlacedScan>& placed,
+                                  std::span<const ScanSurface> surfaces, const RegisterOptions& options) {
+  const std::size_t count = placed.size();
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j) {
+      if (!surfaces[i].is_surface() || !surfaces[j].is_surface()) continue;
+      if (placed[i].placed && placed[j].placed) continue;
+      const std::size_t steps = std::min(j - i, count - (j - i));  // a round of scans may close
+      if (options.sequence && steps > sequence_window) continue;
+      pairs.push_back({i, j});
+    }
+  return pairs;
+}
+
+PairHint hint_for(const Pair& pair, const RegisterOptions& options) {
+  if (options.turntable_step_deg == 0) return {};
+  const double steps = static_cast<double>(pair.target) - static_cast<double>(pair.source);
+  const Eigen::Vector3d axis(options.turntable_axis[0], options.turntable_axis[1], options.turntable_axis[2]);
+  return {Eigen::AngleAxisd(steps * options.turntable_step_deg * std::numbers::pi / 180, axis.normalized())
+              .toRotationMatrix()};
+}
+
+std::vector<std::optional<SearchedScan>> searched_scans(std::span<const ScanSurface> surfaces, double voxel) {
+  std::vector<std::optional<SearchedScan>> searched(surfaces.size());
+  parallel_for(surfaces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (surfaces[i].is_surface()) searched[i].emplace(surfaces[i], voxel);
+  });
+  return searched;
+}
+
+// Found poses by pair; of each the best, whether to be believed or not, comes first.
+std::vector<std::vector<PairPose>> search_all(const std::vector<Pair>& pairs,
+                                              const std::vector<std::optional<SearchedScan>>& scans,
+                                              const RegisterOptions& options, const Progress& progress) {
+  std::vector<std::vector<PairPose>> found(pairs.size());
+  std::size_t done = 0;
+  std::mutex reporting;
+  parallel_for(pairs.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      found[k] = search_pair(*scans[pairs[k].source], *scans[pairs[k].target], hint_for(pairs[k], options),
+                             candidates_per_pair);
+      const std::lock_guard lock(reporting);
+      progress.update(static_cast<double>(++done) / static_cast<double>(pairs.size()),
+                      "searching pairs of scans");
+    }
+  });
+  return found;
+}
+
+// The group that the others' poses are told in: that of the placed scans, else the one with most scans.
+std::optional<std::size_t> main_group(const ScanGraph& graph, const std::vector<PlacedScan>& placed,
+                                      std::span<const ScanSurface> surfaces) {
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    if (placed[i].placed) return graph.group[i];
+  std::map<std::size_t, std::size_t> sizes;
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    if (surfaces[i].size() > 0) ++sizes[graph.group[i]];
+  if (sizes.empty()) return std::nullopt;
+  return std::max_element(sizes.begin(), sizes.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+double score(const SearchedPair& pair) {
+  return pair.overlap - 2 * (pair.seen_through + pair.in_void / 5);
+}
+
+std::string why_unplaced(std::size_t scan, std::size_t group, const ScanGraph& graph,
+                         const std::vector<SearchedPair>& pairs, std::span<const RangeScan> scans,
+                         const ScanSurface& surface) {
+  if (!surface.is_surface()) return "no pose was given, and its points do not span a surface";
+  std::size_t companions = 0;
+  for (std::size_t i = 0; i < graph.group.size(); ++i)
+    companions += i != scan && graph.group[i] == graph.group[scan] ? 1 : 0;
+  const SearchedPair* best = nullptr;
+  for (const SearchedPair& pair : pairs) {
+    if (pair.first != scan && pair.second != scan) continue;
+    if (graph.group[pair.first == scan ? pair.second : pair.first] != group) continue;
+    if (best == nullptr || score(pair) > score(*best)) best = &pair;
+  }
+  std::string reason = "no pose was given, and none was found";
+  if (companions > 0)
+    reason += fmt::format(": it fits {} other scan(s) that do not fit the rest", companions);
+  if (best != nullptr)
+    reason += fmt::format("; best on {}: {}", label(scans[best->first == scan ? best->second : best->first]),
+                          best->reason);
+  return reason;
+}
+
+}  // namespace
+
+GlobalPlacement place_globally(std::vector<PlacedScan> placed, std::span<const RangeScan> scans,
+                               std::span<const ScanSurface> surfaces, const RegisterOptions& options,
+                               const Progress& progress) {
+  GlobalPlacement result{std::move(placed), {}, {}, coarse_voxel(surfaces, coarse_points), {}};
+  const std::vector<Pair> pairs = pairs_to_search(result.scans, surfaces, options);
+  result.searched = searched_scans(surfaces, result.voxel);
+  const auto& searched = result.searched;
+  const auto found = search_all(pairs, searched, options, progress);
+
+  std::vector<GraphEdge> edges;
+  std::vector<std::size_t> pair_of_edge;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (found[k].empty()) continue;
+    const PairPose& best = found[k][0];
+    result.pairs.push_back({pairs[k].source, pairs[k].target, best.target_from_source, best.overlap,
+                            best.rms_voxels * result.voxel, best.seen_through, best.in_void,
+                            best.against.empty(), best.against});
+    for (const PairPose& pose : found[k])
+      if (pose.against.empty()) {
+        edges.push_back({pairs[k].source, pairs[k].target, pose.target_from_source, pose.score()});
+        pair_of_edge.push_back(result.pairs.size() - 1);
+      }
+  }
+  std::vector<GraphScan> nodes;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    nodes.push_back({surfaces[i].box(), result.scans[i].world_from_scan, result.scans[i].placed});
+  const ScanGraph graph = join_scans(
+      nodes, edges, loop_tolerance_voxels * result.voxel,
+      [&](std::size_t source, std::size_t target, const Rigid3& target_from_source) {
+        return searched[source] && searched[target] &&
+               judge_pair(*searched[source], *searched[target], target_from_source).contradiction() >
+                   most_contradiction_in_group;
+      });
+  for (std::size_t e = edges.size(); e-- > 0;) {  // the first edge of a pair, its best, has the last word
+    SearchedPair& pair = result.pairs[pair_of_edge[e]];
+    pair.accepted = graph.against[e].empty();
+    pair.reason = graph.against[e];
+    if (pair.accepted) pair.second_from_first = edges[e].target_from_source;
+  }
+
+  const std::optional<std::size_t> group = main_group(graph, result.scans, surfaces);
+  if (!group) return result;
+  const bool by_itself =
+      std::none_of(result.scans.begin(), result.scans.end(), [](const PlacedScan& s) { return s.placed; });
+  if (by_itself) result.world_scan = group;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    PlacedScan& scan = result.scans[i];
+    if (scan.placed || surfaces[i].size() == 0) continue;
+    if (graph.group[i] != *group) {
+      scan.reason = why_unplaced(i, *group, graph, result.pairs, scans, surfaces[i]);
+      continue;
+    }
+    scan.placed = true;
+    scan.world_from_scan = graph.group_from_scan[i];
+    scan.reason = by_itself && i == *group ? "no pose was given: its own frame is the world"
+                                           : "no pose was given: found by fitting pairs of scans";
+  }
+  return result;
+}
+
+std::string objection(std::size_t which, const std::vector<PlacedScan>& placed,
+                      const std::vector<std::optional<SearchedScan>>& searched) {
+  std::string closest = "it overlaps no other scan";
+  double most_overlap = 0;
+  bool borne_out = false;
+  for (std::size_t other = 0; other < placed.size(); ++other) {
+    if (other == which || !placed[other].placed || !searched[other]) continue;
+    const PairPose pose = judge_pair(*searched[which], *searched[other],
+                                     placed[other].world_from_scan.inverse() * placed[which].world_from_scan);
+    if (pose.contradiction() > most_contradiction_in_group) return pose.against;
+    borne_out |= pose.against.empty();
+    if (pose.overlap > most_overlap) {
+      most_overlap = pose.overlap;
+      closest = pose.against;
+    }
+  }
+  return borne_out ? std::string() : closest;
+}
+
+}  // namespace drape::registration

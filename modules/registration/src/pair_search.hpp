@@ -1,0 +1,57 @@
+// How two scans lie to each other, without a guess.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coarse_scan.hpp"
+#include "drape/geometry/rigid3.hpp"
+#include "point_features.hpp"
+#include "scan_surface.hpp"
+#include "sight_map.hpp"
+
+namespace drape::registration {
+
+/// A scan with all that the search for its place looks at.
+struct SearchedScan {
+  SearchedScan(const ScanSurface& surface, double voxel)
+      : coarse(surface, voxel), features(point_features(coarse)), sight(surface) {}
+
+  CoarseScan coarse;
+  Features features;
+  SightMap sight;
+};
+
+/// One way that two scans may lie to each other.
+struct PairPose {
+  Rigid3 target_from_source = Rigid3::Identity();
+  double overlap = 0;       // the larger of the two shares of points on the other's surface, 0..1
+  double rms_voxels = 0;    // distance of these to it
+  double seen_through = 0;  // the larger of the two shares of points that lie where the other looked through
+  double in_void = 0;   // the larger of the two shares of points that lie where the other saw nothing at all
+  std::string against;  // why it is not to be believed; empty if it is
+
+  /// How much contradicts the lines of sight: missing returns have other causes too, and weigh less.
+  [[nodiscard]] double contradiction() const { return seen_through + in_void / 5; }
+  [[nodiscard]] double score() const { return overlap - 2 * contradiction(); }
+};
+
+/// What is known of a pair before it is searched.
+struct PairHint {
+  std::optional<Eigen::Matrix3d> rotation;  // of target_from_source, to within some degrees
+};
+
+/// The shares and the distance for one motion, and what speaks against it.
+[[nodiscard]] PairPose judge_pair(const SearchedScan& source, const SearchedScan& target,
+                                  const Rigid3& target_from_source);
+
+/// The ways that two scans may lie to each other, best first, at most `most`; what nothing speaks against
+/// comes before the rest. Motions that feature matches agree on, and that of scans taken from the same place,
+/// are laid on each other's surfaces, the best are fitted, and of these the overlap, the distance and the
+/// lines of sight are judged.
+[[nodiscard]] std::vector<PairPose> search_pair(const SearchedScan& source, const SearchedScan& target,
+                                                const PairHint& hint, std::size_t most);
+
+}  // namespace drape::registration
