@@ -1,33 +1,23 @@
 #include "grid_delaunay.hpp"
 
-#include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "planar_delaunay.hpp"
+
 namespace drape::meshing {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
-
 std::vector<Face> lattice_triangles(const RangeGrid& grid) {
-  std::vector<std::pair<Kernel::Point_2, std::uint32_t>> places;
+  std::vector<PlanarSite> sites;
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
       if (const std::int32_t index = grid.at(row, column); index != RangeGrid::missing)
-        places.emplace_back(Kernel::Point_2(column, row), static_cast<std::uint32_t>(index));
-  const Delaunay triangulation(places.begin(), places.end());
-  std::vector<Face> faces;
-  faces.reserve(triangulation.number_of_faces());
-  for (auto f = triangulation.finite_faces_begin(); f != triangulation.finite_faces_end(); ++f)
-    faces.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
-  return faces;
+        sites.push_back({static_cast<double>(column), static_cast<double>(row),
+                         static_cast<std::uint32_t>(index)});
+  return delaunay_faces(sites);
 }
 
 // For each face of one lattice orientation: positive where it faces the scanner.

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "advancing_front.hpp"
 #include "cleaning.hpp"
@@ -16,6 +17,7 @@
 #include "orientation.hpp"
 #include "point_merging.hpp"
 #include "poisson.hpp"
+#include "range_fusion.hpp"
 #include "trimming.hpp"
 #include "vertex_fans.hpp"
 
@@ -130,7 +132,8 @@ void clean(const MeshOptions& options, MeshResult& result) {
   result.mesh = std::move(cleaned.mesh);
 }
 
-MeshResult mesh_merged_cloud(const MeshInput& input, const MeshOptions& options, const Progress& progress) {
+MeshResult mesh_merged_cloud(const MeshInput& input, Method method, const MeshOptions& options,
+                             const Progress& progress) {
   const double spacing = input.spacing;
   progress.update(0.0, "merging the samples");
   PointCloud samples = merged_on_voxels(input.cloud, options.merge_voxel_spacings * spacing);
@@ -145,7 +148,7 @@ MeshResult mesh_merged_cloud(const MeshInput& input, const MeshOptions& options,
     for (Eigen::Vector3f& n : samples.normals) n = -n;
   }
   const double trim = options.trim_spacings * spacing;
-  if (options.method == Method::poisson) {
+  if (method == Method::poisson) {
     if (samples.normals.empty())
       throw input_error("mesh.method poisson needs samples with normals, and the cloud has none");
     const double sample_spacing = std::max(1.0, options.merge_voxel_spacings) * spacing;
@@ -217,17 +220,67 @@ MeshResult mesh_grids(const MeshInput& input, const MeshOptions& options, const 
   return result;
 }
 
+Method chosen_method(const MeshInput& input, Method asked) {
+  if (asked != Method::automatic) return asked;
+  if (!input.scans.empty() && std::all_of(input.scans.begin(), input.scans.end(), can_be_fused))
+    return Method::fusion;
+  return input.cloud.normals.empty() ? Method::advancing_front : Method::poisson;
+}
+
+MeshResult fuse(const MeshInput& input, const MeshOptions& options, const Progress& progress) {
+  if (std::none_of(input.scans.begin(), input.scans.end(), can_be_fused))
+    throw input_error(
+        "mesh.method fusion needs to know from where, or in which direction, the scans looked, and knows it for "
+        "none of the {}",
+        input.scans.size());
+  Fused fused = fused_mesh(
+      input.scans, input.world_from_scan,
+      {input.spacing,
+       options.fusion_voxel_spacings * input.spacing,
+       {options.grid_max_edge_spacings, options.grid_max_incidence_deg}},
+      progress.part(0, 0.95));
+  MeshResult result;
+  result.samples_used = fused.samples;
+  progress.update(0.95, "cleaning the mesh");
+  Cleaned cleaned = without_touching_fans(fused.mesh);
+  result.non_manifold_repaired = cleaned.removed;
+  cleaned = without_small_components(cleaned.mesh, options.min_component_percent);
+  result.components_removed = cleaned.removed;
+  result.mesh = without_unused_vertices(cleaned.mesh);
+  return result;
+}
+
+MeshResult meshed(const MeshInput& input, Method method, const MeshOptions& options, const Progress& progress) {
+  switch (method) {
+    case Method::fusion:
+      return fuse(input, options, progress);
+    case Method::grid:
+      return mesh_grids(input, options, progress);
+    default:
+      return mesh_merged_cloud(input, method, options, progress);
+  }
+}
+
+std::string_view why_empty(Method method) {
+  switch (method) {
+    case Method::fusion:
+      return "no three of a scan lie within grid_max_edge_spacings and grid_max_incidence_deg";
+    case Method::poisson:
+      return "their normals enclose nothing, or all of it is farther than trim_spacings off";
+    default:
+      return "all of them are farther apart than the limits allow";
+  }
+}
+
 }  // namespace
 
 MeshResult mesh_scans(const MeshInput& input, const MeshOptions& options, const Progress& progress) {
   check(input);
-  MeshResult result = options.method == Method::grid ? mesh_grids(input, options, progress)
-                                                     : mesh_merged_cloud(input, options, progress);
+  const Method method = chosen_method(input, options.method);
+  MeshResult result = meshed(input, method, options, progress);
+  result.method = method;
   if (result.mesh.empty())
-    throw input_error("meshing found no surface in {} samples: {}", result.samples_used,
-                      options.method == Method::poisson
-                          ? "their normals enclose nothing, or all of it is farther than trim_spacings off"
-                          : "all of them are farther apart than the limits allow");
+    throw input_error("meshing found no surface in {} samples: {}", result.samples_used, why_empty(method));
   result.mesh.normals = vertex_normals(result.mesh);
   progress.update(1.0);
   return result;

@@ -13,11 +13,12 @@
 
 namespace drape::meshing {
 
-enum class Method { poisson, advancing_front, grid };
+enum class Method { automatic, fusion, poisson, advancing_front, grid };
 
 /// Lengths are in point spacings (MeshInput::spacing).
 struct MeshOptions {
-  Method method = Method::poisson;
+  Method method = Method::automatic;
+  double fusion_voxel_spacings = 0.65;
   double merge_voxel_spacings = 2.0;
   double poisson_radius_spacings = 2.0;
   double poisson_distance_spacings = 0.25;
@@ -30,9 +31,19 @@ struct MeshOptions {
 inline void describe(Binder& b, MeshOptions& o) {
   b.choice(
       "method", o.method,
-      {{"poisson", Method::poisson}, {"advancing_front", Method::advancing_front}, {"grid", Method::grid}},
-      "poisson: smooths over noise and small gaps; advancing_front: through the merged samples; grid: each "
-      "scan's own lattice, exact to its samples, scans are not joined (for a single scan)");
+      {{"auto", Method::automatic},
+       {"fusion", Method::fusion},
+       {"poisson", Method::poisson},
+       {"advancing_front", Method::advancing_front},
+       {"grid", Method::grid}},
+      "fusion: what all scans agree on along their lines of sight, open where none saw the surface; needs to "
+      "know from where or in which direction the scans looked; poisson: smooths over noise and small gaps; "
+      "advancing_front: through the merged samples; grid: each scan's own lattice, exact to its samples, scans "
+      "are not joined (for a single scan); auto: fusion where every scan allows for it, else poisson, or "
+      "advancing_front without normals");
+  b.number("fusion_voxel_spacings", o.fusion_voxel_spacings, {0.1, 100},
+           "fusion: the voxels' size, which is about the mesh's edges; time and memory grow with its inverse "
+           "square");
   b.number(
       "merge_voxel_spacings", o.merge_voxel_spacings, {0, 100},
       "poisson, advancing_front: samples within a voxel of this size become one; 0 keeps all (slow where "
@@ -45,9 +56,9 @@ inline void describe(Binder& b, MeshOptions& o) {
   b.number("trim_spacings", o.trim_spacings, {0.5, 1e6},
            "poisson, advancing_front: surface that is farther than this from every sample is cut away");
   b.number("grid_max_edge_spacings", o.grid_max_edge_spacings, {1, 1e6},
-           "grid: triangles with a longer edge span a depth step and are dropped");
+           "fusion, grid: triangles of a scan with a longer edge span a depth step and are dropped");
   b.number("grid_max_incidence_deg", o.grid_max_incidence_deg, {0, 90},
-           "grid: triangles seen at a flatter angle (0: head-on) span a depth step and are dropped");
+           "fusion, grid: triangles seen at a flatter angle (0: head-on) span a depth step and are dropped");
   b.number("min_component_percent", o.min_component_percent, {0, 100},
            "pieces with a smaller share of all faces are removed");
 }
@@ -63,6 +74,7 @@ struct MeshInput {
 
 struct MeshResult {
   TriangleMesh mesh;                   // world frame, with normals, and the attributes that the samples have
+  Method method = Method::automatic;   // that was used
   std::size_t samples_used = 0;        // after merging
   std::size_t faces_trimmed = 0;       // too far from every sample
   std::size_t components_removed = 0;  // too small
@@ -73,13 +85,16 @@ struct MeshResult {
 /// Meshes registered scans. Every outcome is a manifold mesh (each edge has one or two faces, each vertex one
 /// fan of faces) that is consistently oriented: outward, which is towards the scanners where these are known.
 ///
+/// fusion: Curless and Levoy 1996 on denoised range grids. About 2 us a sample at the default voxel. Scans
+/// without a grid are triangulated as their sight sees them (8 us a sample).
+///
 /// poisson: Kazhdan, Bolitho and Hoppe 2006, on a Delaunay refinement of the samples, contoured by restricted
 /// Delaunay triangulation (CGAL). Needs normals. About 20 us a merged sample plus 100 us a vertex of the
 /// mesh. advancing_front: Cohen-Steiner and Da 2004 (CGAL). About 25 us a merged sample. grid: Delaunay
 /// triangulation of each scan's lattice (CGAL). About 5 us a sample. Where scans overlap so do their sheets.
 ///
 /// Error{input} where the samples define no surface (too few, all on a line, no normals for poisson, no grids
-/// for grid, every sample far from its neighbours).
+/// for grid, no view for fusion, every sample far from its neighbours).
 [[nodiscard]] MeshResult mesh_scans(const MeshInput& input, const MeshOptions& options,
                                     const Progress& progress = {});
 

@@ -1,0 +1,64 @@
+// What a scan sees along each of its lines of sight.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "range_sheet.hpp"
+
+namespace drape::meshing {
+
+/// A picture of depths. The value of a pixel is (depth, slope_x, slope_y, weight); weight 0: nothing was seen
+/// there.
+struct DepthMap {
+  static constexpr std::uint32_t no_sample = 0xffffffffU;
+
+  Sight sight;
+  int columns = 0;
+  int rows = 0;
+  std::vector<Eigen::Vector4f> pixels;
+  std::vector<std::uint32_t> samples;  // per pixel the scan's nearest point, or no_sample; may be empty
+  std::size_t scan = 0;                // which one this is of
+
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+
+  /// Bilinear between pixels of one surface, the nearest pixel's value beside an edge; weight 0 if that one
+  /// has none.
+  [[nodiscard]] Eigen::Vector4f at(float column, float row) const {
+    if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns - 1) &&
+          row < static_cast<float>(rows - 1)))
+      return Eigen::Vector4f::Zero();
+    const int c = static_cast<int>(column);
+    const int r = static_cast<int>(row);
+    const float u = column - static_cast<float>(c);
+    const float v = row - static_cast<float>(r);
+    const Eigen::Vector4f* const upper = &pixels[index(c, r)];
+    const Eigen::Vector4f* const lower = upper + columns;
+    const Eigen::Vector4f& nearest = (v < 0.5F ? upper : lower)[u < 0.5F ? 0 : 1];
+    if (!(nearest[3] > 0)) return Eigen::Vector4f::Zero();
+    if (!(one_surface(nearest, upper[0]) && one_surface(nearest, upper[1]) &&
+          one_surface(nearest, lower[0]) && one_surface(nearest, lower[1])))
+      return nearest;
+    return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
+  }
+
+ private:
+  [[nodiscard]] bool one_surface(const Eigen::Vector4f& a, const Eigen::Vector4f& b) const {
+    return b[3] > 0 && std::abs(a[0] - b[0]) <= depth_step_;
+  }
+  float depth_step_ = 0;  // more than this between pixels is an edge
+  friend DepthMap depth_map(const RangeSheet& sheet, bool keep_samples, double longest_edge_spacings);
+};
+
+/// The sheet's faces drawn into a picture, nearest in front; gaps of up to three pixels between pixels of one
+/// surface closed at a low weight. With `keep_samples` it knows the samples too.
+[[nodiscard]] DepthMap depth_map(const RangeSheet& sheet, bool keep_samples, double longest_edge_spacings);
+
+}  // namespace drape::meshing
