@@ -1,0 +1,20 @@
+// Screened Poisson reconstruction by pcl-tools, run as a program of its own.
+#pragma once
+
+#include <optional>
+
+#include "drape/geometry/point_cloud.hpp"
+#include "drape/geometry/triangle_mesh.hpp"
+
+namespace drape::test {
+
+struct PeerMesh {
+  TriangleMesh mesh;
+  double cpu_seconds = 0;
+};
+
+/// What pcl_poisson_reconstruction makes of a cloud with normals; nothing where it is not installed or wrote
+/// no mesh.
+[[nodiscard]] std::optional<PeerMesh> pcl_poisson_mesh(const PointCloud& cloud, int depth);
+
+}  // namespace drape::test
