@@ -69,6 +69,29 @@ void close_gaps(DepthMap& map, std::size_t lines, std::size_t line_stride, std::
   }
 }
 
+// Pixels without a value beside ones with a value get the mean of what those make of them.
+void add_margin(DepthMap& map) {
+  constexpr float margin_weight = -1;
+  const std::vector<Eigen::Vector4f> before = map.pixels;
+  for (int row = 1; row + 1 < map.rows; ++row)
+    for (int column = 1; column + 1 < map.columns; ++column) {
+      if (before[map.index(column, row)][3] != 0) continue;
+      Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+      float count = 0;
+      for (int down = -1; down <= 1; ++down)
+        for (int right = -1; right <= 1; ++right) {
+          const Eigen::Vector4f& beside = before[map.index(column + right, row + down)];
+          if (beside[3] == 0) continue;
+          sum += map.along_plane(beside, static_cast<float>(-right), static_cast<float>(-down));
+          count += 1;
+        }
+      if (count == 0) continue;
+      Eigen::Vector4f& pixel = map.pixels[map.index(column, row)];
+      pixel = sum / count;
+      pixel[3] = margin_weight;
+    }
+}
+
 }  // namespace
 
 DepthMap depth_map(const RangeSheet& sheet, bool keep_samples, double longest_edge_spacings) {
@@ -84,8 +107,8 @@ DepthMap depth_map(const RangeSheet& sheet, bool keep_samples, double longest_ed
       bottom = std::max(bottom, sheet.samples[v].row);
       farthest = std::max(farthest, sheet.samples[v].depth);
     }
-  map.columns = static_cast<int>(right) + 3;
-  map.rows = static_cast<int>(bottom) + 3;
+  map.columns = static_cast<int>(right) + 4;
+  map.rows = static_cast<int>(bottom) + 4;
   map.depth_step_ =
       static_cast<float>(longest_edge_spacings * sheet.sight.spacing_at(static_cast<double>(farthest)));
   const std::size_t size = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
@@ -96,6 +119,8 @@ DepthMap depth_map(const RangeSheet& sheet, bool keep_samples, double longest_ed
   const auto rows = static_cast<std::size_t>(map.rows);
   close_gaps(map, rows, columns, columns, 1, map.depth_step_);
   close_gaps(map, columns, 1, rows, columns, map.depth_step_);
+  constexpr int margin_pixels = 2;
+  for (int i = 0; i < margin_pixels; ++i) add_margin(map);
   return map;
 }
 

@@ -13,7 +13,7 @@
 namespace drape::meshing {
 
 /// A picture of depths. The value of a pixel is (depth, slope_x, slope_y, weight); weight 0: nothing was seen
-/// there.
+/// there; less: nothing was seen there either, but the surface beside it would be there if it went on.
 struct DepthMap {
   static constexpr std::uint32_t no_sample = 0xffffffffU;
 
@@ -29,8 +29,8 @@ struct DepthMap {
            static_cast<std::size_t>(column);
   }
 
-  /// Bilinear between pixels of one surface, the nearest pixel's value beside an edge; weight 0 if that one
-  /// has none.
+  /// Bilinear between pixels of one surface, the nearest pixel's tangent plane beside an edge; weight 0 if that
+  /// one has none.
   [[nodiscard]] Eigen::Vector4f at(float column, float row) const {
     if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns - 1) &&
           row < static_cast<float>(rows - 1)))
@@ -42,11 +42,17 @@ struct DepthMap {
     const Eigen::Vector4f* const upper = &pixels[index(c, r)];
     const Eigen::Vector4f* const lower = upper + columns;
     const Eigen::Vector4f& nearest = (v < 0.5F ? upper : lower)[u < 0.5F ? 0 : 1];
-    if (!(nearest[3] > 0)) return Eigen::Vector4f::Zero();
-    if (!(one_surface(nearest, upper[0]) && one_surface(nearest, upper[1]) &&
+    if (nearest[3] == 0) return Eigen::Vector4f::Zero();
+    if (!(nearest[3] > 0 && one_surface(nearest, upper[0]) && one_surface(nearest, upper[1]) &&
           one_surface(nearest, lower[0]) && one_surface(nearest, lower[1])))
-      return nearest;
+      return along_plane(nearest, u - (u < 0.5F ? 0.0F : 1.0F), v - (v < 0.5F ? 0.0F : 1.0F));
     return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
+  }
+
+  /// A pixel's value that many pixels to the right and down on its tangent plane.
+  [[nodiscard]] Eigen::Vector4f along_plane(const Eigen::Vector4f& pixel, float right, float down) const {
+    const auto width = static_cast<float>(sight.width_at(static_cast<double>(pixel[0])));
+    return {pixel[0] + width * (right * pixel[1] + down * pixel[2]), pixel[1], pixel[2], pixel[3]};
   }
 
  private:
@@ -58,7 +64,7 @@ struct DepthMap {
 };
 
 /// The sheet's faces drawn into a picture, nearest in front; gaps of up to three pixels between pixels of one
-/// surface closed at a low weight. With `keep_samples` it knows the samples too.
+/// surface closed at a low weight; a margin of two pixels round it of a weight below 0. With `keep_samples` it knows the samples too.
 [[nodiscard]] DepthMap depth_map(const RangeSheet& sheet, bool keep_samples, double longest_edge_spacings);
 
 }  // namespace drape::meshing

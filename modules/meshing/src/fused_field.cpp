@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "drape/base/parallel.hpp"
 
@@ -10,10 +11,25 @@ namespace {
 
 constexpr auto truncation = static_cast<float>(FusedField::truncation_voxels);
 
-std::int16_t quantized(float distance_voxels) {
-  const float steps = distance_voxels / static_cast<float>(FusedField::step_voxels);
-  return static_cast<std::int16_t>(std::lround(
-      std::clamp(steps, -static_cast<float>(FusedField::farthest), static_cast<float>(FusedField::farthest))));
+std::int16_t quantized(float distance_voxels, bool guess) {
+  constexpr auto most = static_cast<float>(FusedField::farthest);
+  const float steps = std::clamp(distance_voxels / static_cast<float>(FusedField::step_voxels), -most, most);
+  const int even = 2 * static_cast<int>(std::lround(steps / 2));
+  return static_cast<std::int16_t>(guess ? std::max(even - 1, 1) : even);
+}
+
+// The mean of what is evidence, else the least of what seems empty.
+std::int16_t fused_distance(std::span<const Sighting> sightings) {
+  float sum = 0;
+  float weight = 0;
+  float least_empty = std::numeric_limits<float>::infinity();
+  for (const Sighting& s : sightings) {
+    sum += s.weight * s.distance;
+    weight += s.weight;
+    if (s.seems_empty) least_empty = std::min(least_empty, s.distance);
+  }
+  if (weight > 0) return quantized(sum / weight, false);
+  return std::isfinite(least_empty) ? quantized(least_empty, true) : FusedField::unknown;
 }
 
 std::vector<BlockSight> sights_on(const FusionBlocks& blocks, std::size_t block, std::span<const DepthMap> maps) {
@@ -35,13 +51,7 @@ void fuse_block(const std::vector<BlockSight>& sights, std::int16_t* distances) 
           any_behind |= sightings[m].weight > 0 && sightings[m].distance < 0;
         }
         if (any_behind && sights.size() > 1) shield_opposite_sides(sightings, sights, at);
-        float sum = 0;
-        float weight = 0;
-        for (const Sighting& s : sightings) {
-          sum += s.weight * s.distance;
-          weight += s.weight;
-        }
-        *distances = weight > 0 ? quantized(sum / weight) : FusedField::unknown;
+        *distances = fused_distance(sightings);
       }
 }
 
@@ -69,11 +79,14 @@ Sighting BlockSight::sighting(const Eigen::Vector3f& in_block) const {
   const Eigen::Vector3f picture = picture_of(in_block);
   Sighting sighting;
   sighting.pixel = map_->at(picture.x(), picture.y());
-  if (!(sighting.pixel[3] > 0)) return sighting;
+  if (sighting.pixel[3] == 0) return sighting;
   const float along = (sighting.pixel[0] - picture.z()) * voxels_per_length_;
   sighting.distance =
       along / map_->sight.normal_of(picture.x(), picture.y(), sighting.pixel[1], sighting.pixel[2]).norm();
-  if (std::abs(sighting.distance) >= truncation) return sighting;
+  if (!(sighting.pixel[3] > 0) || std::abs(sighting.distance) >= truncation) {
+    sighting.seems_empty = sighting.distance > 0;
+    return sighting;
+  }
   const float ramp = std::min(1.0F, 2 * (1 + sighting.distance / truncation));
   sighting.weight = sighting.pixel[3] * ramp;
   return sighting;

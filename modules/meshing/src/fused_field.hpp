@@ -11,11 +11,13 @@
 
 namespace drape::meshing {
 
-/// Distances at the voxels of the blocks: positive in front of the surface, in steps of `step` voxels.
+/// Distances at the voxels of the blocks: positive in front of the surface, in steps of `step_voxels`. Odd
+/// ones are positive too, and guesses: space beside or far in front of a surface that its scan saw through.
 struct FusedField {
   static constexpr double truncation_voxels = 3;
   static constexpr std::int16_t unknown = -32768;  // no scan saw what is there
-  static constexpr std::int16_t farthest = 32767;  // of what is known
+  static constexpr std::int16_t farthest = 32766;  // of what is known
+  static constexpr bool is_guess(std::int16_t distance) { return (distance & 1) != 0; }
   static constexpr double step_voxels = truncation_voxels / farthest;
 
   std::vector<std::int16_t> distances;  // block_voxels for each block
@@ -35,8 +37,9 @@ struct FusedField {
 
 /// The part that a depth map has in a voxel's value.
 struct Sighting {
-  float distance = 0;  // in voxels
-  float weight = 0;    // 0: it has none
+  float distance = 0;       // in voxels
+  float weight = 0;         // 0: it has none
+  bool seems_empty = false;  // of weight 0, but in front of the surface or of where it would go on
   Eigen::Vector4f pixel = Eigen::Vector4f::Zero();
 };
 

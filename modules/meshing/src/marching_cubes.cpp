@@ -48,10 +48,13 @@ class CubeCorners {
         copy_row(field, neighbors_[neighbor | 1], y % side, z % side, 1, row + side);
         std::uint16_t inside = 0;
         std::uint16_t known = 0;
+        std::uint16_t seen = 0;
         for (int x = 0; x <= side; ++x) {
           inside = static_cast<std::uint16_t>(inside | (row[x] < 0 ? 1 << x : 0));
           known = static_cast<std::uint16_t>(known | (row[x] != FusedField::unknown ? 1 << x : 0));
+          seen = static_cast<std::uint16_t>(seen | (row[x] >= 0 && !FusedField::is_guess(row[x]) ? 1 << x : 0));
         }
+        outside_seen_[row_of(y, z)] = seen;
         inside_[row_of(y, z)] = inside;
         known_[row_of(y, z)] = known;
       }
@@ -85,15 +88,15 @@ class CubeCorners {
         std::array<std::uint32_t, 4> rows{};
         std::uint32_t known = 0xffff;
         std::uint32_t any = 0;
-        std::uint32_t all = 0xffff;
+        std::uint32_t seen = 0;
         for (int k = 0; k < 4; ++k) {
           const std::size_t row = row_of(y + (k & 1), z + (k >> 1));
           rows[static_cast<std::size_t>(k)] = inside_[row];
           known &= known_[row];
+          seen |= outside_seen_[row];
           any |= inside_[row];
-          all &= inside_[row];
         }
-        std::uint32_t cubes = known & (known >> 1) & (any | (any >> 1)) & ~(all & (all >> 1)) & 0xff;
+        std::uint32_t cubes = known & (known >> 1) & (any | (any >> 1)) & (seen | (seen >> 1)) & 0xff;
         for (; cubes != 0; cubes &= cubes - 1) {
           const int x = std::countr_zero(cubes);
           int inside = 0;
@@ -119,6 +122,7 @@ class CubeCorners {
   std::array<std::int16_t, (side + 1) * (side + 1) * (side + 1)> values_{};
   std::array<std::uint16_t, (side + 1) * (side + 1)> inside_{};
   std::array<std::uint16_t, (side + 1) * (side + 1)> known_{};
+  std::array<std::uint16_t, (side + 1) * (side + 1)> outside_seen_{};
 };
 
 // How many vertices and faces the blocks before each block have.

@@ -39,7 +39,7 @@ std::vector<RangeSample> samples_of(const RangeScan& scan, const Rigid3& world_f
     samples[i].depth = in_view ? static_cast<float>(p.z()) : unseen;
   }
   if (!least.allFinite()) return samples;
-  least.array() = least.array().floor() - 2;
+  least.array() = least.array().floor() - 3;
   for (std::size_t i = 0; i < count; ++i) {
     samples[i].column = static_cast<float>(pictures[i].x() - least.x());
     samples[i].row = static_cast<float>(pictures[i].y() - least.y());

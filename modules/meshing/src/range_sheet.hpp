@@ -20,7 +20,7 @@ struct RangeSample {
 };
 
 struct RangeSheet {
-  Sight sight;                       // with its corner set: all columns and rows are at least 2
+  Sight sight;                       // with its corner set: all columns and rows are at least 3
   std::vector<RangeSample> samples;  // as the scan's points, denoised
   std::vector<Face> faces;
 };
