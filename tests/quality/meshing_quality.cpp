@@ -124,7 +124,8 @@ PointCloud spread_points(const TriangleMesh& mesh, std::size_t count, std::uint6
   PointCloud cloud;
   for (std::size_t i = 0; i < count; ++i) {
     const auto face = static_cast<std::size_t>(
-        std::upper_bound(area.begin() + 1, area.end() - 1, random.uniform() * area.back()) - area.begin() - 1);
+        std::upper_bound(area.begin() + 1, area.end() - 1, random.uniform() * area.back()) - area.begin() -
+        1);
     const Face& f = mesh.faces[face];
     const double a = std::sqrt(random.uniform());
     const double b = random.uniform();
@@ -159,9 +160,11 @@ double invented_percent(const TriangleMesh& made, const Scans& all) {
 }
 
 void print_header() {
-  fmt::print("{:<34} {:>6} {:>6} {:>6} {:>6} | {:>6} {:>6} | {:>6} {:>7} | {:>5} {:>5} {:>5} {:>8} {:>8}\n", "", "mean",
-             "RMS", "95 %", "max", "mean", "RMS", "normal", "invent", "parts", "loops", "genus", "manifold", "faces");
-  fmt::print("{:<34} {:>27} | {:>13} | {:>6} {:>7} |\n", "", "made -> truth, spacings", "seen -> made", "deg", "%");
+  fmt::print("{:<34} {:>6} {:>6} {:>6} {:>6} | {:>6} {:>6} | {:>6} {:>7} | {:>5} {:>5} {:>5} {:>8} {:>8}\n",
+             "", "mean", "RMS", "95 %", "max", "mean", "RMS", "normal", "invent", "parts", "loops", "genus",
+             "manifold", "faces");
+  fmt::print("{:<34} {:>27} | {:>13} | {:>6} {:>7} |\n", "", "made -> truth, spacings", "seen -> made", "deg",
+             "%");
 }
 
 // Distances in spacings; `seen` is what the scans saw of the truth.
@@ -172,11 +175,12 @@ void print_row(const std::string& name, const TriangleMesh& made, const Triangle
   const meshing::MeshQuality quality = meshing::mesh_quality(made);
   const double s = all.spacing;
   fmt::print(
-      "{:<34} {:>6.3f} {:>6.3f} {:>6.3f} {:>6.2f} | {:>6.3f} {:>6.3f} | {:>6.2f} {:>7.3f} | {:>5} {:>5} {:>5} {:>8} {:>8}"
+      "{:<34} {:>6.3f} {:>6.3f} {:>6.3f} {:>6.2f} | {:>6.3f} {:>6.3f} | {:>6.2f} {:>7.3f} | {:>5} {:>5} "
+      "{:>5} {:>8} {:>8}"
       " {}\n",
-      name, extra.mean / s, extra.rms / s, extra.percentile_95 / s, extra.max / s, missing.mean / s, missing.rms / s,
-      mean_normal_difference_deg(made, truth), invented_percent(made, all), quality.components,
-      quality.boundary_loops, quality.genus ? std::to_string(*quality.genus) : "-",
+      name, extra.mean / s, extra.rms / s, extra.percentile_95 / s, extra.max / s, missing.mean / s,
+      missing.rms / s, mean_normal_difference_deg(made, truth), invented_percent(made, all),
+      quality.components, quality.boundary_loops, quality.genus ? std::to_string(*quality.genus) : "-",
       quality.manifold() ? "yes" : "NO", quality.faces,
       quality.self_intersections > 0 ? fmt::format("{} self-intersections", quality.self_intersections) : "");
   std::fflush(stdout);
@@ -201,7 +205,8 @@ void measure_shape(const Settings& settings, const std::string& file) {
     const KdTree samples(all.cloud.positions);
     std::vector<Eigen::Vector3d> seen;
     for (const Eigen::Vector3d& p : spread_points(truth, 20000, 2).positions)
-      if (samples.nearest_within(p, std::max(all.spacing, 3 * noise / 100 * bounding_box(truth.vertices).diagonal().norm())))
+      if (samples.nearest_within(
+              p, std::max(all.spacing, 3 * noise / 100 * bounding_box(truth.vertices).diagonal().norm())))
         seen.push_back(p);
     const std::string row = fmt::format("{} {} %", name, noise);
     const TriangleMesh made =
@@ -245,8 +250,10 @@ void measure_left_out(const Settings& settings, const Scans& whole, const std::s
         samples.nearest_within(world, 2 * nine.spacing))
       seen.push_back(world);
   const metrics::Distribution d = metrics::surface_distance(seen, made);
-  fmt::print("bunny without {:<14} its {:>6} points seen by others -> mesh, mm: mean {:.3f} RMS {:.3f} 95 % {:.3f} max {:.2f}\n",
-             file, seen.size(), 1e3 * d.mean, 1e3 * d.rms, 1e3 * d.percentile_95, 1e3 * d.max);
+  fmt::print(
+      "bunny without {:<14} its {:>6} points seen by others -> mesh, mm: mean {:.3f} RMS {:.3f} 95 % {:.3f} "
+      "max {:.2f}\n",
+      file, seen.size(), 1e3 * d.mean, 1e3 * d.rms, 1e3 * d.percentile_95, 1e3 * d.max);
 }
 
 void measure_bunny(const Settings& settings) {
@@ -260,8 +267,9 @@ void measure_bunny(const Settings& settings) {
     print_row(name, made, zipper, all.cloud.positions, all);
     const metrics::Distribution to_zipper = metrics::surface_distance(made, zipper, {50000, 1});
     const metrics::Distribution to_mesh = metrics::surface_distance(all.cloud.positions, made);
-    fmt::print("{:<34} in mm: to bun_zipper mean {:.3f} RMS {:.3f}; raw points to mesh mean {:.3f} 95 % {:.3f}\n", "",
-               1e3 * to_zipper.mean, 1e3 * to_zipper.rms, 1e3 * to_mesh.mean, 1e3 * to_mesh.percentile_95);
+    fmt::print(
+        "{:<34} in mm: to bun_zipper mean {:.3f} RMS {:.3f}; raw points to mesh mean {:.3f} 95 % {:.3f}\n",
+        "", 1e3 * to_zipper.mean, 1e3 * to_zipper.rms, 1e3 * to_mesh.mean, 1e3 * to_mesh.percentile_95);
   };
   const TriangleMesh made =
       meshing::mesh_scans({all.scans, all.world_from_scan, all.cloud, all.spacing}, settings.mesh).mesh;

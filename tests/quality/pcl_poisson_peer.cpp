@@ -60,9 +60,9 @@ std::optional<PeerMesh> pcl_poisson_mesh(const PointCloud& cloud, int depth) {
   const ScratchFolder folder;
   write_pcd(folder / "cloud.pcd", cloud);
   const double start = children_cpu_seconds();
-  const std::string command =
-      fmt::format("pcl_poisson_reconstruction '{}' '{}' -depth {} > '{}' 2>&1", (folder / "cloud.pcd").string(),
-                  (folder / "mesh.vtk").string(), depth, (folder / "log").string());
+  const std::string command = fmt::format("pcl_poisson_reconstruction '{}' '{}' -depth {} > '{}' 2>&1",
+                                          (folder / "cloud.pcd").string(), (folder / "mesh.vtk").string(),
+                                          depth, (folder / "log").string());
   if (std::system(command.c_str()) != 0) return std::nullopt;
   PeerMesh peer{read_vtk(folder / "mesh.vtk"), children_cpu_seconds() - start};
   if (peer.mesh.empty()) return std::nullopt;

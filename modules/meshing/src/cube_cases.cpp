@@ -43,7 +43,9 @@ std::array<int, 12> outline(int inside) {
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side) {
       const std::array<int, 4> corners = face_corners(axis, side);
-      const auto is_inside = [&](int k) { return ((inside >> corners[static_cast<std::size_t>(k & 3)]) & 1) != 0; };
+      const auto is_inside = [&](int k) {
+        return ((inside >> corners[static_cast<std::size_t>(k & 3)]) & 1) != 0;
+      };
       for (int k = 0; k < 4; ++k) {
         if (is_inside(k) || !is_inside(k + 1)) continue;
         // A run of inside corners from k + 1: the outline cuts it off from the rest of the face.
@@ -68,9 +70,9 @@ bool split(const std::vector<int>& polygon, std::size_t first, std::size_t last,
     if (!allowed(first, middle) || !allowed(middle, last)) continue;
     const int before = result.triangles;
     if (split(polygon, first, middle, result) && split(polygon, middle, last, result)) {
-      result.edges[static_cast<std::size_t>(result.triangles++)] = {static_cast<std::uint8_t>(polygon[first]),
-                                                                     static_cast<std::uint8_t>(polygon[middle]),
-                                                                     static_cast<std::uint8_t>(polygon[last])};
+      result.edges[static_cast<std::size_t>(result.triangles++)] = {
+          static_cast<std::uint8_t>(polygon[first]), static_cast<std::uint8_t>(polygon[middle]),
+          static_cast<std::uint8_t>(polygon[last])};
       return true;
     }
     result.triangles = before;

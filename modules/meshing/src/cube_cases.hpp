@@ -10,7 +10,7 @@ namespace drape::meshing {
 /// corner `edge_corner(e)`.
 [[nodiscard]] constexpr int edge_corner(int edge) {
   const int axis = edge / 4;
-  const int low = edge % 4 & 1;   // in the next axis
+  const int low = edge % 4 & 1;    // in the next axis
   const int high = edge % 4 >> 1;  // in the one after that
   return (low << ((axis + 1) % 3)) | (high << ((axis + 2) % 3));
 }

@@ -36,8 +36,7 @@ void draw(DepthMap& map, const RangeSheet& sheet, const Face& face) {
       Eigen::Vector4f& there = map.pixels[pixel];
       if (there[3] > 0 && there[0] <= value[0]) continue;
       there = value;
-      if (!map.samples.empty())
-        map.samples[pixel] = face[a >= b && a >= c ? 0 : (b >= c ? 1 : 2)];
+      if (!map.samples.empty()) map.samples[pixel] = face[a >= b && a >= c ? 0 : (b >= c ? 1 : 2)];
     }
 }
 

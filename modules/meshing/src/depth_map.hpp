@@ -29,8 +29,8 @@ struct DepthMap {
            static_cast<std::size_t>(column);
   }
 
-  /// Bilinear between pixels of one surface, the nearest pixel's tangent plane beside an edge; weight 0 if that
-  /// one has none.
+  /// Bilinear between pixels of one surface, the nearest pixel's tangent plane beside an edge; weight 0 if
+  /// that one has none.
   [[nodiscard]] Eigen::Vector4f at(float column, float row) const {
     if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns - 1) &&
           row < static_cast<float>(rows - 1)))
@@ -64,7 +64,8 @@ struct DepthMap {
 };
 
 /// The sheet's faces drawn into a picture, nearest in front; gaps of up to three pixels between pixels of one
-/// surface closed at a low weight; a margin of two pixels round it of a weight below 0. With `keep_samples` it knows the samples too.
+/// surface closed at a low weight; a margin of two pixels round it of a weight below 0. With `keep_samples`
+/// it knows the samples too.
 [[nodiscard]] DepthMap depth_map(const RangeSheet& sheet, bool keep_samples, double longest_edge_spacings);
 
 }  // namespace drape::meshing

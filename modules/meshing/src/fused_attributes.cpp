@@ -28,7 +28,8 @@ Sum at_place(const DepthMap& map, const PointCloud& cloud, const Present& presen
       const int r = static_cast<int>(row) + down;
       const std::uint32_t sample = map.samples[map.index(c, r)];
       if (sample == DepthMap::no_sample) continue;
-      const float w = weight * (1 - std::abs(column - static_cast<float>(c))) * (1 - std::abs(row - static_cast<float>(r)));
+      const float w = weight * (1 - std::abs(column - static_cast<float>(c))) *
+                      (1 - std::abs(row - static_cast<float>(r)));
       if (present.colors) sum.head<3>() += w * cloud.colors[sample];
       if (present.intensities) sum[3] += w * cloud.intensities[sample];
       if (present.confidences) sum[4] += w * cloud.confidences[sample];

@@ -10,8 +10,8 @@
 
 namespace drape::meshing {
 
-/// Colours, intensities and confidences of the surface's vertices, where all scans have them: the mean of what
-/// the scans that see the vertex have there, by their weight in its distance.
+/// Colours, intensities and confidences of the surface's vertices, where all scans have them: the mean of
+/// what the scans that see the vertex have there, by their weight in its distance.
 void fuse_attributes(FieldSurface& surface, const FusionBlocks& blocks, std::span<const DepthMap> maps,
                      std::span<const RangeScan> scans);
 

@@ -22,17 +22,22 @@ std::int16_t quantized(float distance_voxels, bool guess) {
 std::int16_t fused_distance(std::span<const Sighting> sightings) {
   float sum = 0;
   float weight = 0;
+  float most_seen_through = 0;
   float least_empty = std::numeric_limits<float>::infinity();
+  bool all_behind = true;
   for (const Sighting& s : sightings) {
     sum += s.weight * s.distance;
     weight += s.weight;
+    if (s.weight > 0) all_behind &= s.distance < 0;
+    most_seen_through = std::max(most_seen_through, s.seen_through);
     if (s.seems_empty) least_empty = std::min(least_empty, s.distance);
   }
-  if (weight > 0) return quantized(sum / weight, false);
+  if (weight > 0 && !(all_behind && most_seen_through > weight)) return quantized(sum / weight, false);
   return std::isfinite(least_empty) ? quantized(least_empty, true) : FusedField::unknown;
 }
 
-std::vector<BlockSight> sights_on(const FusionBlocks& blocks, std::size_t block, std::span<const DepthMap> maps) {
+std::vector<BlockSight> sights_on(const FusionBlocks& blocks, std::size_t block,
+                                  std::span<const DepthMap> maps) {
   std::vector<BlockSight> sights;
   for (const std::uint32_t m : blocks.maps_of(block))
     sights.emplace_back(maps[m], blocks.lattice, blocks.corner(block));
@@ -85,6 +90,7 @@ Sighting BlockSight::sighting(const Eigen::Vector3f& in_block) const {
       along / map_->sight.normal_of(picture.x(), picture.y(), sighting.pixel[1], sighting.pixel[2]).norm();
   if (!(sighting.pixel[3] > 0) || std::abs(sighting.distance) >= truncation) {
     sighting.seems_empty = sighting.distance > 0;
+    if (sighting.distance > 0) sighting.seen_through = std::max(sighting.pixel[3], 0.0F);
     return sighting;
   }
   const float ramp = std::min(1.0F, 2 * (1 + sighting.distance / truncation));
@@ -94,8 +100,7 @@ Sighting BlockSight::sighting(const Eigen::Vector3f& in_block) const {
 
 Eigen::Vector3f BlockSight::normal(const Eigen::Vector3f& in_block, const Eigen::Vector4f& pixel) const {
   const Eigen::Vector3f picture = picture_of(in_block);
-  return world_from_sight_ *
-         map_->sight.normal_of(picture.x(), picture.y(), pixel[1], pixel[2]).normalized();
+  return world_from_sight_ * map_->sight.normal_of(picture.x(), picture.y(), pixel[1], pixel[2]).normalized();
 }
 
 void shield_opposite_sides(std::span<Sighting> sightings, std::span<const BlockSight> sights,

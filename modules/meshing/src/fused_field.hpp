@@ -31,15 +31,17 @@ struct FusedField {
 /// distance along the line of sight times the cosine of the incidence, which is that from the tangent plane,
 /// bilinear from the scan's depth map, truncated at 3 voxels; the weight falls to 0 over the rear half behind
 /// a surface. What lies behind one surface but nearer to another of the opposite normal is no evidence
-/// against that one: the two sides of a thin sheet do not cancel.
+/// against that one: the two sides of a thin sheet do not cancel. Nor is it evidence, with less weight, where
+/// another scan saw through: beside an edge a steep surface's rear reaches out of the object.
 [[nodiscard]] FusedField fused_field(const FusionBlocks& blocks, std::span<const DepthMap> maps,
                                      const Progress& progress);
 
 /// The part that a depth map has in a voxel's value.
 struct Sighting {
-  float distance = 0;       // in voxels
-  float weight = 0;         // 0: it has none
+  float distance = 0;        // in voxels
+  float weight = 0;          // 0: it has none
   bool seems_empty = false;  // of weight 0, but in front of the surface or of where it would go on
+  float seen_through = 0;    // weight of the surface that was seen behind the place, more than the truncation
   Eigen::Vector4f pixel = Eigen::Vector4f::Zero();
 };
 

@@ -20,9 +20,11 @@ void for_each_place(const DepthMap& map, std::size_t first_row, std::size_t end_
       const Eigen::Vector4f& pixel = map.pixels[map.index(column, static_cast<int>(row))];
       if (!(pixel[3] > 0)) continue;
       const auto depth = static_cast<double>(pixel[0]);
-      const Eigen::Vector3d in_sight = map.sight.in_sight({static_cast<double>(column), static_cast<double>(row), depth});
+      const Eigen::Vector3d in_sight =
+          map.sight.in_sight({static_cast<double>(column), static_cast<double>(row), depth});
       const double steepness = std::hypot(static_cast<double>(pixel[1]), static_cast<double>(pixel[2]));
-      visit(world_from_sight * in_sight, world_from_sight.linear().col(2) * (0.5 * steepness * map.sight.width_at(depth)));
+      visit(world_from_sight * in_sight,
+            world_from_sight.linear().col(2) * (0.5 * steepness * map.sight.width_at(depth)));
     }
 }
 
@@ -137,9 +139,12 @@ FusionBlocks blocks_round(std::span<const DepthMap> maps, double voxel, double r
   if (box.isEmpty()) return blocks;
   // A block's margin on all sides, so that no key is negative.
   constexpr double margin = VoxelLattice::block;
-  if (!(box.sizes().maxCoeff() / voxel + 2 * margin < static_cast<double>(BlockKey::most) * VoxelLattice::block))
-    throw input_error("the scans extend over {:.3g}, which is too far for voxels of {:.3g}: is a point far off, or a pose wrong?",
-                      box.sizes().maxCoeff(), voxel);
+  if (!(box.sizes().maxCoeff() / voxel + 2 * margin <
+        static_cast<double>(BlockKey::most) * VoxelLattice::block))
+    throw input_error(
+        "the scans extend over {:.3g}, which is too far for voxels of {:.3g}: is a point far off, or a pose "
+        "wrong?",
+        box.sizes().maxCoeff(), voxel);
   blocks.lattice.voxel = voxel;
   blocks.lattice.origin = box.min().array() - margin * voxel;
 

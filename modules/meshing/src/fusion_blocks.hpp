@@ -14,9 +14,9 @@ namespace drape::meshing {
 
 /// The cubic lattice of voxels that a mesh is made on. Voxel (0, 0, 0) lies at `origin`.
 struct VoxelLattice {
-  static constexpr int block = 8;                               // voxels along a block's side
-  static constexpr int block_voxels = block * block * block;    // (z * block + y) * block + x
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();             // world
+  static constexpr int block = 8;                             // voxels along a block's side
+  static constexpr int block_voxels = block * block * block;  // (z * block + y) * block + x
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();           // world
   double voxel = 1;
 
   [[nodiscard]] Eigen::Vector3d position(const Eigen::Vector3d& in_voxels) const {
@@ -35,7 +35,9 @@ class BlockKey {
 
   [[nodiscard]] std::uint64_t number() const { return key_; }
   [[nodiscard]] Eigen::Vector3i place() const {
-    const auto part = [&](int shift) { return static_cast<int>((key_ >> shift) & static_cast<std::uint64_t>(most)); };
+    const auto part = [&](int shift) {
+      return static_cast<int>((key_ >> shift) & static_cast<std::uint64_t>(most));
+    };
     return {part(0), part(bits), part(2 * bits)};
   }
 

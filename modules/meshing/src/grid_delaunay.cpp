@@ -15,8 +15,8 @@ std::vector<Face> lattice_triangles(const RangeGrid& grid) {
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
       if (const std::int32_t index = grid.at(row, column); index != RangeGrid::missing)
-        sites.push_back({static_cast<double>(column), static_cast<double>(row),
-                         static_cast<std::uint32_t>(index)});
+        sites.push_back(
+            {static_cast<double>(column), static_cast<double>(row), static_cast<std::uint32_t>(index)});
   return delaunay_faces(sites);
 }
 

@@ -52,7 +52,8 @@ class CubeCorners {
         for (int x = 0; x <= side; ++x) {
           inside = static_cast<std::uint16_t>(inside | (row[x] < 0 ? 1 << x : 0));
           known = static_cast<std::uint16_t>(known | (row[x] != FusedField::unknown ? 1 << x : 0));
-          seen = static_cast<std::uint16_t>(seen | (row[x] >= 0 && !FusedField::is_guess(row[x]) ? 1 << x : 0));
+          seen =
+              static_cast<std::uint16_t>(seen | (row[x] >= 0 && !FusedField::is_guess(row[x]) ? 1 << x : 0));
         }
         outside_seen_[row_of(y, z)] = seen;
         inside_[row_of(y, z)] = inside;
@@ -68,7 +69,8 @@ class CubeCorners {
     for (int z = 0; z < side; ++z)
       for (int y = 0; y < side; ++y) {
         const auto add = [&](std::size_t axis, std::uint32_t differ, std::uint32_t both_known) {
-          edges.cut[axis][static_cast<std::size_t>(z)] |= std::uint64_t{differ & both_known & 0xff} << (8 * y);
+          edges.cut[axis][static_cast<std::size_t>(z)] |= std::uint64_t{differ & both_known & 0xff}
+                                                          << (8 * y);
         };
         const std::uint32_t inside = inside_[row_of(y, z)];
         const std::uint32_t known = known_[row_of(y, z)];
@@ -100,7 +102,8 @@ class CubeCorners {
         for (; cubes != 0; cubes &= cubes - 1) {
           const int x = std::countr_zero(cubes);
           int inside = 0;
-          for (int k = 0; k < 4; ++k) inside |= static_cast<int>((rows[static_cast<std::size_t>(k)] >> x) & 3) << (2 * k);
+          for (int k = 0; k < 4; ++k)
+            inside |= static_cast<int>((rows[static_cast<std::size_t>(k)] >> x) & 3) << (2 * k);
           visit(x, y, z, inside);
         }
       }
@@ -111,7 +114,8 @@ class CubeCorners {
   static std::size_t place(int x, int y, int z) {
     return row_of(y, z) * (side + 1) + static_cast<std::size_t>(x);
   }
-  static void copy_row(const FusedField& field, std::uint32_t block, int y, int z, int count, std::int16_t* to) {
+  static void copy_row(const FusedField& field, std::uint32_t block, int y, int z, int count,
+                       std::int16_t* to) {
     if (block == FusionBlocks::none)
       std::fill_n(to, count, FusedField::unknown);
     else
@@ -155,7 +159,8 @@ Numbering number_all(const FusionBlocks& blocks, const FusedField& field) {
     numbers.first_face[b + 1] = static_cast<std::uint32_t>(faces += numbers.first_face[b + 1]);
   }
   if (vertices > 0xffffffffU || faces > 0xffffffffU)
-    throw input_error("the mesh would have {} faces, more than can be numbered: make the voxels larger", faces);
+    throw input_error("the mesh would have {} faces, more than can be numbered: make the voxels larger",
+                      faces);
   return numbers;
 }
 
@@ -188,8 +193,9 @@ void place_faces(const CubeCorners& corners, const Numbering& numbers, Face* fac
         const int ey = y + ((corner >> 1) & 1);
         const int ez = z + (corner >> 2);
         const std::uint32_t owner = corners.neighbor((ex / side) | (ey / side) << 1 | (ez / side) << 2);
-        (*face)[k] = numbers.first_vertex[owner] +
-                     numbers.edges[owner].rank(static_cast<std::size_t>(edge / 4), ex % side, ey % side, ez % side);
+        (*face)[k] =
+            numbers.first_vertex[owner] +
+            numbers.edges[owner].rank(static_cast<std::size_t>(edge / 4), ex % side, ey % side, ez % side);
       }
   });
 }
@@ -204,7 +210,8 @@ FieldSurface field_surface(const FusionBlocks& blocks, const FusedField& field) 
   parallel_for(blocks.size(), blocks_per_chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const CubeCorners corners(blocks, field, b);
-      place_vertices(blocks, corners, b, numbers.edges[b], surface.mesh.vertices.data() + numbers.first_vertex[b]);
+      place_vertices(blocks, corners, b, numbers.edges[b],
+                     surface.mesh.vertices.data() + numbers.first_vertex[b]);
       place_faces(corners, numbers, surface.mesh.faces.data() + numbers.first_face[b]);
     }
   });

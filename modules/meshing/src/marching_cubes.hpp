@@ -16,8 +16,9 @@ struct FieldSurface {
 };
 
 /// Marching cubes (Lorensen and Cline 1987) over the cubes of which all eight corners are known, and one
-/// in front of the surface by more than a guess. Every edge has at most two faces, and they agree on the outside, which is where the field is positive. A vertex is
-/// shared by all cubes round its edge, and at least 2 % of the edge from its ends. Some may have no face.
+/// in front of the surface by more than a guess. Every edge has at most two faces, and they agree on the
+/// outside, which is where the field is positive. A vertex is shared by all cubes round its edge, and at
+/// least 2 % of the edge from its ends. Some may have no face.
 [[nodiscard]] FieldSurface field_surface(const FusionBlocks& blocks, const FusedField& field);
 
 }  // namespace drape::meshing

@@ -230,15 +230,15 @@ Method chosen_method(const MeshInput& input, Method asked) {
 MeshResult fuse(const MeshInput& input, const MeshOptions& options, const Progress& progress) {
   if (std::none_of(input.scans.begin(), input.scans.end(), can_be_fused))
     throw input_error(
-        "mesh.method fusion needs to know from where, or in which direction, the scans looked, and knows it for "
+        "mesh.method fusion needs to know from where, or in which direction, the scans looked, and knows it "
+        "for "
         "none of the {}",
         input.scans.size());
-  Fused fused = fused_mesh(
-      input.scans, input.world_from_scan,
-      {input.spacing,
-       options.fusion_voxel_spacings * input.spacing,
-       {options.grid_max_edge_spacings, options.grid_max_incidence_deg}},
-      progress.part(0, 0.95));
+  Fused fused = fused_mesh(input.scans, input.world_from_scan,
+                           {input.spacing,
+                            options.fusion_voxel_spacings * input.spacing,
+                            {options.grid_max_edge_spacings, options.grid_max_incidence_deg}},
+                           progress.part(0, 0.95));
   MeshResult result;
   result.samples_used = fused.samples;
   progress.update(0.95, "cleaning the mesh");
@@ -250,7 +250,8 @@ MeshResult fuse(const MeshInput& input, const MeshOptions& options, const Progre
   return result;
 }
 
-MeshResult meshed(const MeshInput& input, Method method, const MeshOptions& options, const Progress& progress) {
+MeshResult meshed(const MeshInput& input, Method method, const MeshOptions& options,
+                  const Progress& progress) {
   switch (method) {
     case Method::fusion:
       return fuse(input, options, progress);

@@ -121,8 +121,7 @@ Plane robust_plane(Surroundings& s, float noise) {
     // Across the surface the noise is the same at any incidence; along the ray it is 1 / cosine of that.
     const float limit = 3 * noise / plane.cosine();
     for (std::size_t i = 0; i < s.count; ++i)
-      s.weight[i] =
-          biweight(s.z[i] - (plane.at + plane.slope_x * s.x[i] + plane.slope_y * s.y[i]), limit);
+      s.weight[i] = biweight(s.z[i] - (plane.at + plane.slope_x * s.x[i] + plane.slope_y * s.y[i]), limit);
     plane = fitted_plane(s);
   }
   return plane;

@@ -30,7 +30,8 @@ std::vector<RangeSample> samples_of(const RangeScan& scan, const Rigid3& world_f
     pictures[i] = sight.picture_of(world_from_scan * p);
   }
   std::vector<RangeSample> samples(count);
-  const double widest = sight.parallel ? std::numeric_limits<double>::infinity() : sight.widest_tangent / sight.pitch;
+  const double widest =
+      sight.parallel ? std::numeric_limits<double>::infinity() : sight.widest_tangent / sight.pitch;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d& p = pictures[i];
     const bool in_view = scan.cloud.positions[i].allFinite() && (sight.parallel || p.z() > 0) &&
@@ -130,7 +131,8 @@ std::vector<Face> lattice_faces(const RangeGrid& grid, const RangeSheet& sheet, 
   faces.reserve(2 * sheet.samples.size());
   const auto keep = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
     if (a < 0 || b < 0 || c < 0) return;
-    const Face face{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)};
+    const Face face{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                    static_cast<std::uint32_t>(c)};
     if (test.is_surface(face)) faces.push_back(face);
   };
   for (int row = 0; row + 1 < grid.rows; ++row)

@@ -106,8 +106,7 @@ std::vector<Sight> sights_of(const RangeScan& scan, const Rigid3& world_from_sca
   for (int k = 0; k < 3; ++k)
     for (const double sign : {1.0, -1.0}) {
       sides.push_back(sight);
-      sides.back().sight_from_world =
-          frame(looking_along(sign * Vector3d::Unit(k)), origin, world_from_scan);
+      sides.back().sight_from_world = frame(looking_along(sign * Vector3d::Unit(k)), origin, world_from_scan);
     }
   return sides;
 }

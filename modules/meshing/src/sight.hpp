@@ -15,7 +15,7 @@ namespace drape::meshing {
 struct Sight {
   Rigid3 sight_from_world = Rigid3::Identity();
   bool parallel = true;
-  double pitch = 1;         // of a pixel: a length, or a tangent (at depth 1) where rays diverge
+  double pitch = 1;  // of a pixel: a length, or a tangent (at depth 1) where rays diverge
   double pixels_per_spacing = 1;
   double widest_tangent = 1.8;  // where rays diverge: what is farther off the axis is not in the picture
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // of pixel (0, 0), in the unit of `pitch`
@@ -55,9 +55,9 @@ struct Sight {
   }
 };
 
-/// One sight for a scan of parallel rays or of a field of view within a cone; six, as the sides of a cube, for
-/// a scanner that looks all around. A scan with a grid and normals but no view is looked at against its mean
-/// normal. None where nothing is known, or no point is finite. `spacing` is the scan's; pixels are
+/// One sight for a scan of parallel rays or of a field of view within a cone; six, as the sides of a cube,
+/// for a scanner that looks all around. A scan with a grid and normals but no view is looked at against its
+/// mean normal. None where nothing is known, or no point is finite. `spacing` is the scan's; pixels are
 /// `pixel_spacings` of it wide at the median depth. `corner` is not set.
 [[nodiscard]] std::vector<Sight> sights_of(const RangeScan& scan, const Rigid3& world_from_scan,
                                            double spacing, double pixel_spacings);

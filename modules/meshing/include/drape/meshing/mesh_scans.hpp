@@ -38,7 +38,8 @@ inline void describe(Binder& b, MeshOptions& o) {
        {"grid", Method::grid}},
       "fusion: what all scans agree on along their lines of sight, open where none saw the surface; needs to "
       "know from where or in which direction the scans looked; poisson: smooths over noise and small gaps; "
-      "advancing_front: through the merged samples; grid: each scan's own lattice, exact to its samples, scans "
+      "advancing_front: through the merged samples; grid: each scan's own lattice, exact to its samples, "
+      "scans "
       "are not joined (for a single scan); auto: fusion where every scan allows for it, else poisson, or "
       "advancing_front without normals");
   b.number("fusion_voxel_spacings", o.fusion_voxel_spacings, {0.1, 100},
