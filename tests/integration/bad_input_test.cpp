@@ -65,7 +65,7 @@ class BadInput : public ::testing::Test {
   }
   static std::string photo_config(const std::string& photo, const std::string& mask = "mask.png") {
     return mesh_config("ball.ply") + "  photos:\n    - {image: " + photo + ", mask: " + mask + "}\n" +
-           "align: {first_pass_step_deg: 120, max_candidates_percent: 1}\n";
+           "align: {method: exhaustive, first_pass_step_deg: 120, max_candidates_percent: 1}\n";
   }
 
   ScratchFolder folder_;

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "drape/base/files.hpp"
 #include "drape/io/mesh_files.hpp"
@@ -55,6 +56,21 @@ double true_overlap_percent(const SampleRun& run, const std::string& name) {
   return metrics::stencil_overlap(truth, model).percent();
 }
 
+// How far the found camera shows the mesh from where the true one does, root mean square over the vertices,
+// in pixels of the photo.
+double camera_error_px(const SampleRun& run, const std::string& name) {
+  const io::CamerasRecord found = io::read_cameras(run.run_folder() / "6-align/cameras.json");
+  const io::CamerasRecord truth = io::read_cameras(source("sample_scans/" + name + "/truth.json"));
+  const TriangleMesh mesh = io::read_mesh(run.run_folder() / "4-fill/mesh.ply");
+  const Eigen::Vector3d to_true_world = found.frame.world_offset_m - truth.frame.world_offset_m;
+  double squares = 0;
+  for (const Eigen::Vector3d& x : mesh.vertices)
+    squares += (found.cameras.at(0).camera.project(x).pixel -
+                truth.cameras.at(0).camera.project(x + to_true_world).pixel)
+                   .squaredNorm();
+  return std::sqrt(squares / static_cast<double>(mesh.vertices.size()));
+}
+
 void expect_whole_model(const SampleRun& run) {
   for (const char* file : {"model.glb", "model.obj", "model.mtl", "model.ply", "cameras.json"})
     EXPECT_TRUE(fs::exists(run.output() / file)) << file;
@@ -72,7 +88,8 @@ TEST(SampleRun, TeapotFromScansAndPhoto) {
   EXPECT_EQ(stages_that_ran(first), (std::vector<std::string>{"ingest", "register", "mesh", "fill", "segment",
                                                               "align", "texture", "export"}));
   expect_whole_model(teapot);
-  EXPECT_GE(true_overlap_percent(teapot, "teapot"), 95.0);
+  EXPECT_GE(true_overlap_percent(teapot, "teapot"), 98.0);
+  EXPECT_LE(camera_error_px(teapot, "teapot"), 8.0);
   EXPECT_NE(first.out.find("overlap  "), std::string::npos) << first.out;
   EXPECT_NE(first.out.find("model.glb"), std::string::npos) << first.out;
 
@@ -98,25 +115,21 @@ TEST(SampleRun, StatueWithAHollowBackAndAGivenMask) {
   const Outcome outcome = statue();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_whole_model(statue);
-  EXPECT_GE(true_overlap_percent(statue, "statue"), 90.0);
+  EXPECT_GE(true_overlap_percent(statue, "statue"), 98.0);
+  EXPECT_LE(camera_error_px(statue, "statue"), 8.0);
 }
 
 TEST(SampleRun, GridDelaunayOfEachScan) {
   const SampleRun statue("statue");
-  const Outcome outcome = statue({"--set", "mesh.method=grid", "--set", "align.first_pass_step_deg=90",
-                                  "--set", "align.max_candidates_percent=1"});
+  const Outcome outcome = statue({"--set", "mesh.method=grid", "--set", "align.method=exhaustive", "--set",
+                                  "align.first_pass_step_deg=90", "--set", "align.max_candidates_percent=1"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_whole_model(statue);
 }
 
 TEST(SampleRun, SameBytesForAnyNumberOfThreads) {
-  // Coarse steps: what counts here is every stage's order of work, not the pose.
-  const std::vector<std::string> quick = {"--set", "align.first_pass_step_deg=90", "--set",
-                                          "align.max_candidates_percent=1"};
-  std::vector<std::string> one = quick;
-  one.insert(one.end(), {"--threads", "1"});
-  std::vector<std::string> three = quick;
-  three.insert(three.end(), {"--threads", "3"});
+  const std::vector<std::string> one = {"--threads", "1"};
+  const std::vector<std::string> three = {"--threads", "3"};
   const SampleRun alone("teapot");
   const SampleRun together("teapot");
   ASSERT_EQ(alone(one).exit_code, 0);

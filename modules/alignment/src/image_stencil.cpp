@@ -8,7 +8,22 @@
 namespace drape::alignment {
 namespace {
 
-void check(const Image8& given) {
+Image8 resampled(const Image8& given, int longest_px) {
+  const double factor =
+      std::min(1.0, static_cast<double>(longest_px) / std::max(given.width(), given.height()));
+  const int width = std::max(1, static_cast<int>(std::lround(given.width() * factor)));
+  const int height = std::max(1, static_cast<int>(std::lround(given.height() * factor)));
+  Image8 small(width, height, 1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      small.at(x, y) = given.at(static_cast<int>((x + 0.5) * given.width() / width),
+                                static_cast<int>((y + 0.5) * given.height() / height));
+  return small;
+}
+
+}  // namespace
+
+void check_stencil(const Image8& given) {
   if (given.empty() || given.channels() != 1)
     throw input_error("the stencil has {} x {} pixels of {} channels; it must have one channel",
                       given.width(), given.height(), given.channels());
@@ -27,23 +42,8 @@ void check(const Image8& given) {
     throw input_error("the stencil has no background, so that nothing bounds the object in the photo");
 }
 
-Image8 resampled(const Image8& given, int longest_px) {
-  const double factor =
-      std::min(1.0, static_cast<double>(longest_px) / std::max(given.width(), given.height()));
-  const int width = std::max(1, static_cast<int>(std::lround(given.width() * factor)));
-  const int height = std::max(1, static_cast<int>(std::lround(given.height() * factor)));
-  Image8 small(width, height, 1);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      small.at(x, y) = given.at(static_cast<int>((x + 0.5) * given.width() / width),
-                                static_cast<int>((y + 0.5) * given.height() / height));
-  return small;
-}
-
-}  // namespace
-
 ImageStencil image_stencil(const Image8& photo_stencil, int longest_px) {
-  check(photo_stencil);
+  check_stencil(photo_stencil);
   ImageStencil image;
   image.pixels = resampled(photo_stencil, longest_px);
   image.known = Image8(image.pixels.width(), image.pixels.height(), 1, 1);

@@ -59,4 +59,57 @@ Camera look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const 
   return camera;
 }
 
+namespace {
+
+// M = K R with K upper triangular and a positive diagonal: Gram and Schmidt on the rows, from the last one
+// up.
+struct UpperTimesRotation {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d R;
+};
+UpperTimesRotation upper_times_rotation(const Eigen::Matrix3d& M) {
+  UpperTimesRotation result;
+  for (int i = 2; i >= 0; --i) {
+    Eigen::RowVector3d rest = M.row(i);
+    for (int j = 2; j > i; --j) {
+      result.K(i, j) = M.row(i).dot(result.R.row(j));
+      rest -= result.K(i, j) * result.R.row(j);
+    }
+    result.K(i, i) = rest.norm();
+    result.R.row(i) = rest / result.K(i, i);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Camera> camera_from_matrix(const Eigen::Matrix<double, 3, 4>& P, int width, int height) {
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  if (!P.allFinite()) return std::nullopt;
+  if (P.row(2).head<3>().isZero(0)) {
+    if (P(2, 3) == 0) return std::nullopt;
+    camera.projection = Camera::Projection::orthographic;
+    const Eigen::Matrix<double, 2, 4> top = P.topRows<2>() / P(2, 3);
+    Eigen::Matrix3d M;
+    M << top.leftCols<3>(), top.row(0).head<3>().cross(top.row(1).head<3>()).normalized();
+    const UpperTimesRotation parts = upper_times_rotation(M);
+    camera.K = parts.K;
+    camera.K.col(2) << width / 2.0, height / 2.0, 1;
+    camera.camera_from_world.linear() = parts.R;
+    const Eigen::Vector2d shift = top.col(3) - camera.K.block<2, 1>(0, 2);
+    camera.camera_from_world.translation() << camera.K.topLeftCorner<2, 2>().inverse() * shift, 0;
+  } else {
+    const double sign = P.leftCols<3>().determinant() < 0 ? -1 : 1;
+    const UpperTimesRotation parts = upper_times_rotation(sign * P.leftCols<3>());
+    camera.K = parts.K / parts.K(2, 2);
+    camera.camera_from_world.linear() = parts.R;
+    camera.camera_from_world.translation() = parts.K.inverse() * (sign * P.col(3));
+  }
+  const bool sound = camera.K.allFinite() && camera.camera_from_world.matrix().allFinite() &&
+                     camera.K(0, 0) > 0 && camera.K(1, 1) > 0;
+  return sound ? std::optional<Camera>(camera) : std::nullopt;
+}
+
 }  // namespace drape

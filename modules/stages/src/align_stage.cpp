@@ -36,9 +36,13 @@ io::CameraRecord to_record(const alignment::Alignment& alignment, const std::str
   record.reasons = alignment.reasons;
   record.evidence = "stencil";
   record.method = method;
+  record.boundary_error_px = alignment.boundary_error_px;
+  if (alignment.sigma)
+    record.sigma = io::CameraSigma{alignment.sigma->rotation_deg, alignment.sigma->direction_deg,
+                                   alignment.sigma->focal_percent};
   for (const alignment::AlignmentCandidate& candidate : alignment.candidates)
     record.candidates.push_back(
-        {candidate.camera.P(), candidate.overlap_percent, candidate.score, record.verdict});
+        {candidate.camera.P(), candidate.overlap_percent, candidate.score, to_record(candidate.verdict)});
   return record;
 }
 
@@ -69,11 +73,7 @@ void add_metrics(const std::string& photo, const alignment::AlignmentMetrics& me
 }
 
 std::string method_name(const alignment::AlignOptions& options) {
-  switch (options.method) {
-    case alignment::Method::exhaustive:
-      return "exhaustive";
-  }
-  return "unknown";
+  return options.method == alignment::Method::exhaustive ? "exhaustive" : "silhouette";
 }
 
 // The camera that input.cameras gives for this photo, in this workspace's frame; nothing if it names it not.
@@ -95,11 +95,39 @@ std::optional<io::CameraRecord> given_camera(const io::CamerasRecord& given, con
   return std::nullopt;
 }
 
-alignment::PhotoEvidence evidence_of(const Image8& stencil, const io::Photo& photo,
-                                     const pipeline::PhotoInput& input) {
-  alignment::PhotoEvidence evidence{stencil, photo.focal_px_prior};
-  if (input.camera.focal_px) evidence.focal_px_prior = input.camera.focal_px;
-  if (input.camera.K) evidence.focal_px_prior = (*input.camera.K)[0];
+// P of align.initial_camera, taken apart: the left part of P is an upper triangular K times a rotation.
+std::optional<Camera> initial_camera(const alignment::AlignOptions& options, std::size_t index, int width,
+                                     int height) {
+  if (options.initial_camera.size() % 12 != 0)
+    throw config_error("align.initial_camera has {} numbers; it must have 12 for each photo",
+                       options.initial_camera.size());
+  if (options.initial_camera.size() < 12 * (index + 1)) return std::nullopt;
+  const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> P =
+      Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(options.initial_camera.data() +
+                                                                     12 * index);
+  if (P.isZero(0)) return std::nullopt;
+  const std::optional<Camera> camera = camera_from_matrix(P, width, height);
+  if (!camera) throw config_error("align.initial_camera: the numbers of photo {} are no camera", index);
+  return camera;
+}
+
+alignment::PhotoEvidence evidence_of(const Image8& stencil, const io::Photo& photo, std::size_t index,
+                                     const alignment::AlignOptions& options, const pipeline::Input& input) {
+  alignment::PhotoEvidence evidence{stencil, photo.focal_px_prior, &photo.rgb};
+  const pipeline::PhotoCamera& camera = input.photos[index].camera;
+  if (camera.K || camera.focal_px) {
+    alignment::KnownLens lens;
+    if (camera.K)
+      lens.K = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(camera.K->data());
+    else
+      lens.K << *camera.focal_px, 0, stencil.width() / 2.0, 0, *camera.focal_px, stencil.height() / 2.0, 0, 0,
+          1;
+    lens.distortion = camera.distortion;
+    evidence.lens = lens;
+    evidence.focal_px_prior = lens.K(0, 0);
+  }
+  evidence.initial_camera = initial_camera(options, index, stencil.width(), stencil.height());
+  evidence.up = Eigen::Vector3d(input.up == 'x', input.up == 'y', input.up == 'z');
   return evidence;
 }
 
@@ -118,8 +146,9 @@ io::CameraRecord align_one(std::size_t index, const TriangleMesh& mesh, renderin
   std::optional<io::CameraRecord> record = given_camera(given, name, frame);
   if (!record && !shows_object(stencil)) record = rejected(stencil, method_name(options));
   if (!record) {
-    const alignment::Alignment alignment = alignment::align_photo(
-        mesh, evidence_of(stencil, photo, input), options, item_seed(run.seed(), index), progress);
+    const alignment::Alignment alignment =
+        alignment::align_photo(mesh, evidence_of(stencil, photo, index, options, run.input()), options,
+                               item_seed(run.seed(), index), progress);
     record = to_record(alignment, method_name(options));
     add_metrics("photo_" + three_digits(index), alignment.metrics, run);
   }
@@ -162,8 +191,9 @@ void run(const alignment::AlignOptions& options, pipeline::StageRun& run) {
 pipeline::Stage align_stage() {
   pipeline::Stage stage;
   stage.name = "align";
+  stage.version = 2;
   stage.summary = "Finds each photo's camera by matching the mesh's outline with the photo's stencil.";
-  stage.input_parts = {"photos", "photo_cameras", "cameras"};
+  stage.input_parts = {"photos", "photo_cameras", "cameras", "up"};
   stage.reads = {{"fill", "mesh.ply"}, {"fill", "holes.json"}, {"segment", "*/stencil.png"}};
   stage.writes = {"cameras.json", "*/stencil.png", "*/overlay.png"};
   stage.applies = [](const pipeline::Input& input) { return !input.photos.empty(); };

@@ -20,6 +20,7 @@ namespace {
 // Small stencils and a tenth of the candidates: seconds become tenths.
 AlignOptions quick_options() {
   AlignOptions options;
+  options.method = Method::exhaustive;
   options.exhaustive.stencil_px = 96;
   options.exhaustive.max_candidates_percent = 10;
   return options;

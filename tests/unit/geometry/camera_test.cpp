@@ -59,5 +59,24 @@ TEST(Camera, ResizedKeepsWhereThingsAre) {
   EXPECT_NEAR(half.y(), full.y() / 4, 1e-9);
 }
 
+TEST(Camera, IsFoundAgainInItsMatrix) {
+  for (const Camera::Projection projection :
+       {Camera::Projection::perspective, Camera::Projection::orthographic}) {
+    Camera camera = slanted_camera();
+    camera.projection = projection;
+    camera.K(1, 1) *= 1.25;
+    camera.K(0, 1) = 3;
+    for (const double factor : {1.0, -0.5}) {
+      const std::optional<Camera> found = camera_from_matrix(factor * camera.P(), 640, 480);
+      ASSERT_TRUE(found.has_value());
+      EXPECT_EQ(found->projection, projection);
+      EXPECT_LT((found->K - camera.K).norm(), 1e-9);
+      EXPECT_LT((found->camera_from_world.linear() - camera.camera_from_world.linear()).norm(), 1e-12);
+      EXPECT_LT((found->P() - camera.P()).norm(), 1e-9);
+    }
+  }
+  EXPECT_FALSE(camera_from_matrix(Eigen::Matrix<double, 3, 4>::Zero(), 640, 480).has_value());
+}
+
 }  // namespace
 }  // namespace drape

@@ -15,34 +15,61 @@
 
 namespace drape::alignment {
 
-enum class Method { exhaustive };
+enum class Method { silhouette, exhaustive };
 
 struct AlignOptions {
-  Method method = Method::exhaustive;
+  Method method = Method::silhouette;
   Camera::Projection projection = Camera::Projection::perspective;
+  std::optional<double> focal_px;
   std::optional<double> fov_deg;
+  std::optional<double> max_roll_deg;
+  std::vector<double> initial_camera;
   ExhaustiveOptions exhaustive;
 };
 
 inline void describe(Binder& b, AlignOptions& o) {
-  b.choice("method", o.method, {{"exhaustive", Method::exhaustive}},
-           "exhaustive: every rotation on a grid, then refined (the thesis's method)");
+  b.choice("method", o.method, {{"silhouette", Method::silhouette}, {"exhaustive", Method::exhaustive}},
+           "silhouette: all rotations at once, then the outline to fractions of a pixel; exhaustive: every "
+           "rotation on a grid, then refined (the thesis's method)");
   b.choice(
       "projection", o.projection,
       {{"perspective", Camera::Projection::perspective}, {"orthographic", Camera::Projection::orthographic}},
       "of the photo's camera; orthographic for a telephoto or telecentric lens");
-  b.number(
-      "fov_deg", o.fov_deg, {1, 150},
-      "horizontal field of view of the photo to start from; auto: the photo's own focal length, else 45");
+  b.number("focal_px", o.focal_px, {1, 1e6},
+           "silhouette: focal length of the photos in pixels, held fixed; auto: found, the photo's own as a "
+           "hint");
+  b.number("fov_deg", o.fov_deg, {1, 150},
+           "horizontal field of view of the photo; silhouette: held fixed, exhaustive: to start from; auto: "
+           "found, from the photo's own focal length or none");
+  b.number("max_roll_deg", o.max_roll_deg, {0, 180},
+           "silhouette: input.up is up in the photos within this; auto: they may be held any way");
+  b.numbers("initial_camera", o.initial_camera, 0, {-1e12, 1e12},
+            "silhouette: per photo the 12 numbers of P, row by row, as cameras.json lists them for its "
+            "candidates; 12 zeros: none");
   describe(b, o.exhaustive);
 }
 
-/// What is known of one photo.
+/// Intrinsics that are known, of one photo at its size.
+struct KnownLens {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  std::vector<double> distortion;  // k1 k2 p1 p2 [k3], as OpenCV; empty: none
+};
+
+/// What is known of one photo. All but the stencil may be left out. The stencil and the photo must outlive
+/// the call.
 struct PhotoEvidence {
   /// At the photo's size, one channel: stencil::object, background or unknown.
   const Image8& stencil;
-  /// Focal length as the photo's file tells it, in pixels.
+  /// Focal length as the photo's file tells it, in pixels: a hint that the outline may overrule.
   std::optional<double> focal_px_prior;
+  /// RGB at the stencil's size.
+  const Image8* photo = nullptr;
+  /// Kept as they are. The camera that is found then has this K, and maps undistorted pixels.
+  std::optional<KnownLens> lens;
+  /// About where the camera is, in the mesh's frame: only poses near it are tried.
+  std::optional<Camera> initial_camera;
+  /// What points upwards in the mesh's frame; with AlignOptions::max_roll_deg.
+  std::optional<Eigen::Vector3d> up;
 };
 
 enum class Verdict { accept, review, reject };
@@ -51,6 +78,14 @@ struct AlignmentCandidate {
   Camera camera;
   double overlap_percent = 0;
   double score = 0;  // what the method ranks by, more is better
+  Verdict verdict = Verdict::review;
+};
+
+/// Standard deviations of the pose as the outline's residuals tell them.
+struct PoseSigma {
+  double rotation_deg = 0;
+  double direction_deg = 0;  // from the object to the camera
+  double focal_percent = 0;  // 0 where it was given
 };
 
 /// Times depend on the machine; all else is the same for the same input, options and seed.
@@ -68,17 +103,25 @@ struct Alignment {
   Verdict verdict = Verdict::review;
   std::vector<std::string> reasons;            // for the verdict, in words
   std::vector<AlignmentCandidate> candidates;  // distinct poses, best first; the first is the chosen one
+  /// The following only by Method::silhouette.
+  double inlier_fraction = 0;               // of the two outlines' length: what lies on the other one, 0..1
+  std::optional<double> boundary_error_px;  // root mean square over those; nothing if there are none
+  std::optional<PoseSigma> sigma;
   AlignmentMetrics metrics;
 };
 
-/// Finds the camera of a photo from its stencil alone, whatever way the mesh is turned. The mesh may be open,
-/// in any unit and anywhere. `seed` is for methods that draw random numbers; the exhaustive one does not.
+/// Finds the camera of a photo from its stencil, whatever way the mesh is turned. The mesh may be open, in
+/// any unit and anywhere. `seed` is for methods that draw random numbers; neither of the two here does.
 ///
 /// Error{input} where there is nothing to align: a mesh without extent or with broken numbers; a stencil
-/// without object pixels, without background, or too small for its spread to be measured.
+/// without object pixels, without background, or too small for its spread to be measured. Error{config} for
+/// an initial camera, lens or option that makes no sense.
 ///
-/// Method::exhaustive is chapter 4 of the thesis (Algorithms 4 to 6), with the corrections that its options
-/// name. Its verdict is always `review`: a good overlap does not prove a pose.
+/// Method::silhouette compares polar pictures of the stencil with those of some hundred views of the mesh,
+/// and refines the best by the distances between the outlines, down to the stencil's full resolution; its
+/// verdict says whether the outline proves the pose. Method::exhaustive is chapter 4 of the thesis
+/// (Algorithms 4 to 6), with the corrections that its options name. Its verdict is always `review`: a good
+/// overlap does not prove a pose.
 [[nodiscard]] Alignment align_photo(const TriangleMesh& mesh, const PhotoEvidence& evidence,
                                     const AlignOptions& options, std::uint64_t seed,
                                     const Progress& progress);

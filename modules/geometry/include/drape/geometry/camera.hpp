@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "drape/geometry/rigid3.hpp"
 
@@ -50,5 +51,11 @@ struct Camera {
 /// view). Square pixels, principal point in the middle, horizontal field of view in degrees.
 [[nodiscard]] Camera look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                              const Eigen::Vector3d& up, int width, int height, double horizontal_fov_deg);
+
+/// The camera of a projection matrix, whatever its scale and sign: its left half is K times a rotation (an
+/// upper triangular matrix with a positive diagonal times an orthogonal one; Hartley and Zisserman 2004,
+/// 6.2.4). A last row of 0 0 0 w is an orthographic camera. Nothing for a matrix that is no camera's.
+[[nodiscard]] std::optional<Camera> camera_from_matrix(const Eigen::Matrix<double, 3, 4>& P, int width,
+                                                       int height);
 
 }  // namespace drape

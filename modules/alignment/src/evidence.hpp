@@ -1,0 +1,61 @@
+// What a photo says about the object's outline, whatever it says it with.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "outline_drawing.hpp"
+#include "polar_view.hpp"
+
+namespace drape::alignment {
+
+/// The rim sample `sample` should move by `distance_px` along `direction` (window pixels).
+struct RimResidual {
+  std::size_t sample = 0;
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();  // unit
+  double distance_px = 0;
+  double weight = 0;  // length of outline it stands for
+};
+
+/// How a drawn pose fits. Shares are of length, 0..1.
+struct Agreement {
+  double overlap = 0;      // intersection over union, 0..1
+  double rim_inliers = 0;  // of the model's rim where the photo says anything
+  double image_inliers = 0;  // of the photo's outline
+  double rms_px = 0;         // of the inliers, in window pixels
+
+  /// What poses are ranked by, 0..1.
+  [[nodiscard]] double score() const { return 0.5 * overlap + 0.25 * (rim_inliers + image_inliers); }
+};
+
+/// The search, the refinement and the verdict ask for nothing else. Levels go from coarse to the photo's
+/// resolution; all positions are in pixels about the assumed principal point.
+class Evidence {
+ public:
+  virtual ~Evidence() = default;
+
+  [[nodiscard]] virtual int levels() const = 0;
+  [[nodiscard]] virtual const Window& window(int level) const = 0;
+
+  /// Places and sizes that the object may have in the photo, the likeliest first; `effort` 0: that one alone.
+  /// In pixels of level 0's window.
+  [[nodiscard]] virtual std::vector<PolarFrame> frames(int effort) const = 0;
+
+  /// How well a view fits in a frame, for each of its rolls; comparable between frames and views.
+  class RollScores {
+   public:
+    virtual ~RollScores() = default;
+    virtual void score(const PolarBits& view, std::span<float, polar_angles> scores) const = 0;
+  };
+  [[nodiscard]] virtual std::unique_ptr<RollScores> rolls(const PolarFrame& frame) const = 0;
+
+  /// What pulls at the rim of a drawn pose from up to `reach_px` away (into `residuals`), and how well it fits;
+  /// `inlier_px` is what counts as on the outline.
+  [[nodiscard]] virtual Agreement match(const OutlineDrawing& drawing, int level, double reach_px,
+                                        double inlier_px, std::vector<RimResidual>& residuals) const = 0;
+};
+
+}  // namespace drape::alignment

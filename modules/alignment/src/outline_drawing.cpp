@@ -1,0 +1,90 @@
+#include "outline_drawing.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace drape::alignment {
+namespace {
+
+constexpr double sample_spacing_px = 2;
+constexpr double straight_px = 3;  // shorter edges zigzag about the rim of a smooth body
+constexpr double side_px = 0.9;    // beside a sample the stencil must be set on one side and clear on the other
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+Eigen::Vector3d unit_normal(const std::vector<Eigen::Vector3d>& turned, const Face& f) {
+  return (turned[f[1]] - turned[f[0]]).cross(turned[f[2]] - turned[f[0]]).normalized();
+}
+
+}  // namespace
+
+void OutlineDrawing::draw(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window,
+                          bool with_rim) {
+  const std::size_t count = mesh.vertices.size();
+  turned_.resize(count);
+  places_.resize(count);
+  for (std::size_t v = 0; v < count; ++v) {
+    turned_[v] = pose.rotation * mesh.vertices[v];
+    places_[v] = window.from_photo(pose.place(turned_[v]));
+  }
+  if (stencil_.width() != window.width || stencil_.height() != window.height)
+    stencil_ = BitImage(window.width, window.height);
+  else
+    stencil_.clear();
+  draw_faces(places_, mesh.faces, stencil_);
+  gaps_ = mesh.open ? enclosed_gaps(stencil_) : BitImage();
+  rim_.clear();
+  if (with_rim) find_rim(mesh, pose, window);
+}
+
+void OutlineDrawing::find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window) {
+  // Which side of a face is seen is the sense of its projection, exactly, with perspective and all.
+  front_.resize(mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Face& face = mesh.faces[f];
+    const Eigen::Vector2d& corner = places_[face[0]];
+    front_[f] = cross(places_[face[1]] - corner, places_[face[2]] - corner) < 0 ? 1 : 0;
+  }
+  for (const OutlineEdge& edge : mesh.edges) {
+    const bool rim = edge.other == OutlineEdge::no_face ||
+                     (front_[edge.face] != front_[edge.other]) != edge.turned;
+    if (rim) sample_edge(mesh, edge, pose, window);
+  }
+}
+
+void OutlineDrawing::sample_edge(const OutlineMesh& mesh, const OutlineEdge& edge, const OutlinePose& pose,
+                                 const Window& window) {
+  const Eigen::Vector2d along = places_[edge.to] - places_[edge.from];
+  const double length = along.norm();
+  if (!(length > 0)) return;
+  RimSample sample;
+  sample.border = edge.other == OutlineEdge::no_face;
+  sample.straight = length >= straight_px;
+  Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()) / length;
+  if (!sample.straight && !sample.border) {
+    const Eigen::Vector3d first = unit_normal(turned_, mesh.faces[edge.face]);
+    const Eigen::Vector3d second = unit_normal(turned_, mesh.faces[edge.other]);
+    const Eigen::Vector2d mean = (first + (edge.turned ? -1.0 : 1.0) * second).head<2>();
+    if (mean.norm() > 1e-9) normal = mean.normalized();
+  }
+  const int count = std::max(1, static_cast<int>(std::ceil(length / sample_spacing_px)));
+  sample.length = length / count;
+  for (int i = 0; i < count; ++i) {
+    const double t = (i + 0.5) / count;
+    sample.turned = (1 - t) * turned_[edge.from] + t * turned_[edge.to];
+    sample.at = window.from_photo(pose.place(sample.turned));
+    const auto set_beside = [&](double distance) {
+      const Eigen::Vector2d x = sample.at + distance * normal;
+      return stencil_.at(static_cast<int>(std::floor(x.x())), static_cast<int>(std::floor(x.y())));
+    };
+    const bool inside = set_beside(-side_px);
+    if (inside == set_beside(side_px)) continue;
+    sample.outward = inside ? normal : Eigen::Vector2d(-normal);
+    rim_.push_back(sample);
+  }
+}
+
+}  // namespace drape::alignment

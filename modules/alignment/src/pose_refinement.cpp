@@ -1,0 +1,141 @@
+#include "pose_refinement.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace drape::alignment {
+namespace {
+
+constexpr double least_noise_px = 0.12;  // of residuals: what the pixel grid itself leaves
+constexpr double correlation_px = 3;     // along the outline: closer residuals share their error
+constexpr double most_turn_rad = 0.35;
+constexpr double least_kernel_px = 0.5;
+constexpr double principal_point_sigma = 0.03;  // of the photo's width
+
+struct NormalEquations {
+  PoseMatrix matrix = PoseMatrix::Zero();
+  PoseVector vector = PoseVector::Zero();
+  double chi_squared = 0;
+};
+
+double median_distance(const std::vector<RimResidual>& residuals, std::vector<double>& buffer) {
+  buffer.clear();
+  for (const RimResidual& r : residuals) buffer.push_back(std::abs(r.distance_px));
+  const auto middle = buffer.begin() + static_cast<std::ptrdiff_t>(buffer.size() / 2);
+  std::nth_element(buffer.begin(), middle, buffer.end());
+  return *middle;
+}
+
+NormalEquations normal_equations(const OutlinePose& pose, const std::vector<RimSample>& rim,
+                                 const std::vector<RimResidual>& residuals, double px_per_photo_px,
+                                 double kernel_px) {
+  NormalEquations sum;
+  double squares = 0;
+  double weights = 0;
+  for (const RimResidual& r : residuals) {
+    const double k = kernel_px * kernel_px / (kernel_px * kernel_px + r.distance_px * r.distance_px);
+    const double weight = r.weight * k * k;
+    PoseVector d = place_derivative(pose, rim[r.sample].turned, r.direction) * px_per_photo_px;
+    sum.vector += weight * r.distance_px * d;
+    sum.matrix.selfadjointView<Eigen::Lower>().rankUpdate(d, weight);
+    sum.chi_squared += r.weight * r.distance_px * r.distance_px * k;
+    squares += weight * r.distance_px * r.distance_px;
+    weights += weight;
+  }
+  const double noise = std::max(least_noise_px * least_noise_px, weights > 0 ? squares / weights : 0.0);
+  // Forward and backward residuals look at the same outline from both sides: each counts half.
+  const double confidence = 0.5 / (noise * correlation_px);
+  sum.matrix = (confidence * PoseMatrix(sum.matrix.selfadjointView<Eigen::Lower>())).eval();
+  sum.vector *= confidence;
+  sum.chi_squared *= 0.5 / (least_noise_px * least_noise_px * correlation_px);
+  return sum;
+}
+
+void add_priors(const OutlinePose& pose, const LensPrior& lens, bool principal_point, NormalEquations& sum) {
+  if (!lens.orthographic && !lens.fixed_focal_px) {
+    const PerspectivePrior prior = perspective_prior(lens, pose.scale);
+    const double off = (prior.mean - pose.perspective) / prior.sigma;
+    const double weight = prior.robust ? 1 / (1 + off * off) : 1.0;
+    sum.matrix(6, 6) += weight / (prior.sigma * prior.sigma);
+    sum.vector[6] += weight * off / prior.sigma;
+  }
+  if (principal_point) {
+    const double sigma = principal_point_sigma * lens.photo_width_px;
+    for (int i = 7; i < 9; ++i) {
+      sum.matrix(i, i) += 1 / (sigma * sigma);
+      sum.vector[i] -= pose.principal[i - 7] / (sigma * sigma);
+    }
+  }
+}
+
+OutlinePose within_lens(OutlinePose pose, const LensPrior& lens) {
+  if (lens.orthographic) pose.perspective = 0;
+  if (lens.fixed_focal_px) pose.perspective = std::min(0.85, pose.scale / *lens.fixed_focal_px);
+  return pose;
+}
+
+}  // namespace
+
+PerspectivePrior perspective_prior(const LensPrior& lens, double scale) {
+  if (lens.hinted_focal_px) {
+    const double expected = scale / *lens.hinted_focal_px;
+    return {expected, 0.05 * expected, true};
+  }
+  // Focal lengths of 0.6 to 6 widths: perspective = scale / focal length lies about here, and may be 0.
+  const double widths = scale / lens.photo_width_px;
+  return {0.6 * widths, 0.5 * widths, false};
+}
+
+Eigen::MatrixXd free_directions(const LensPrior& lens, bool principal_point) {
+  const bool free_perspective = !lens.orthographic && !lens.fixed_focal_px;
+  Eigen::MatrixXd directions =
+      Eigen::MatrixXd::Zero(pose_parameters, 6 + (free_perspective ? 1 : 0) + (principal_point ? 2 : 0));
+  directions.topLeftCorner<6, 6>().setIdentity();
+  if (lens.fixed_focal_px) directions(6, 3) = 1 / *lens.fixed_focal_px;
+  if (free_perspective) directions(6, 6) = 1;
+  if (principal_point) directions.bottomRightCorner<2, 2>().setIdentity();
+  return directions;
+}
+
+RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start, const Evidence& evidence,
+                        const LensPrior& lens, const RefinementPlan& plan, OutlineDrawing& drawing) {
+  const Window& window = evidence.window(plan.level);
+  const Eigen::MatrixXd directions = free_directions(lens, plan.free_principal_point);
+  std::vector<RimResidual> residuals;
+  std::vector<double> buffer;
+  RefinedPose best;
+  best.pose = within_lens(start, lens);
+  OutlinePose pose = best.pose;
+  bool first = true;
+  for (int i = 0; i <= plan.iterations; ++i) {
+    const double share = static_cast<double>(i) / std::max(1, plan.iterations);
+    const double reach = plan.reach_px * std::pow(plan.least_reach_px / plan.reach_px, share);
+    drawing.draw(mesh, pose, window);
+    const Agreement agreement = evidence.match(drawing, plan.level, reach, plan.inlier_px, residuals);
+    if (residuals.size() < 6) {
+      if (first) best.agreement = agreement;
+      break;
+    }
+    const double kernel = std::max(least_kernel_px, 2 * median_distance(residuals, buffer));
+    NormalEquations sum =
+        normal_equations(pose, drawing.rim(), residuals, window.px_per_photo_px, kernel);
+    add_priors(pose, lens, plan.free_principal_point, sum);
+    if (first || agreement.score() > best.agreement.score()) {
+      best = {pose, agreement, sum.matrix, sum.chi_squared};
+      first = false;
+    }
+    Eigen::MatrixXd matrix = directions.transpose() * sum.matrix * directions;
+    matrix.diagonal() *= 1 + 1e-4;
+    const Eigen::VectorXd solution = matrix.ldlt().solve(directions.transpose() * sum.vector);
+    PoseVector step = directions * solution;
+    if (!step.allFinite()) break;
+    const double turn = step.head<3>().norm();
+    if (turn > most_turn_rad) step *= most_turn_rad / turn;
+    pose = within_lens(moved(pose, step), lens);
+    if (turn < 2e-6 && i > 2) break;
+  }
+  return best;
+}
+
+}  // namespace drape::alignment

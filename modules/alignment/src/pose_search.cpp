@@ -1,0 +1,277 @@
+#include "pose_search.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "drape/base/parallel.hpp"
+#include "view_atlas.hpp"
+
+namespace drape::alignment {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+constexpr int atlas_views = 400;
+constexpr double usual_perspective = 0.2;
+constexpr double distinct_rad = 10 * radians;       // of candidates of the coarse search
+constexpr double same_pose_rad = 3 * radians;       // of refined ones
+constexpr std::size_t candidates_at_first = 48;
+constexpr std::size_t candidates_with_effort = 160;
+constexpr std::size_t kept_after_glance = 16;
+constexpr std::size_t kept_for_middle = 8;
+constexpr std::size_t kept_for_full = 4;
+constexpr double good_score = 0.93;  // at the coarse level: with less the stencil is not trusted
+
+struct Candidate {
+  float score = 0;
+  std::size_t frame = 0;
+  std::size_t view = 0;
+  int roll = 0;
+};
+
+Eigen::Matrix3d roll_matrix(double angle) {
+  return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+class CoarseSearch {
+ public:
+  CoarseSearch(const MeshLevels& meshes, const Evidence& evidence, const SearchSettings& settings)
+      : evidence_(evidence), settings_(settings) {
+    const PolarFrame frame = evidence.frames(0).front();
+    views_ = view_atlas(meshes.coarse, atlas_views, expected_perspective(frame));
+  }
+
+  /// Distinct starting poses, best first.
+  [[nodiscard]] std::vector<OutlinePose> starts(int effort, std::size_t most) const;
+
+  [[nodiscard]] std::size_t listed(int effort) const {
+    return evidence_.frames(effort).size() * views_.size() * polar_angles;
+  }
+
+ private:
+  [[nodiscard]] double expected_perspective(const PolarFrame& frame) const {
+    if (settings_.lens.orthographic) return 0;
+    const std::optional<double> focal =
+        settings_.lens.fixed_focal_px ? settings_.lens.fixed_focal_px : settings_.lens.hinted_focal_px;
+    if (!focal) return usual_perspective;
+    // A body's radius of gyration in a picture is about half its bounding sphere's.
+    return std::clamp(2 * frame.radius / evidence_.window(0).px_per_photo_px / *focal, 0.0, 0.6);
+  }
+  [[nodiscard]] OutlinePose pose_of(const Candidate& candidate, const PolarFrame& frame) const;
+
+  const Evidence& evidence_;
+  const SearchSettings& settings_;
+  std::vector<AtlasView> views_;
+};
+
+// The view was drawn in the middle of the picture: the same look elsewhere is that of a body turned along with
+// the ray that it lies on.
+OutlinePose CoarseSearch::pose_of(const Candidate& candidate, const PolarFrame& frame) const {
+  const AtlasView& view = views_[candidate.view];
+  const Window& window = evidence_.window(0);
+  const double angle = 2 * std::numbers::pi * candidate.roll / polar_angles;
+  OutlinePose pose;
+  pose.scale = frame.radius / view.frame.radius / window.px_per_photo_px;
+  const Eigen::Vector2d center = window.to_photo(frame.center);
+  pose.shift = center - pose.scale * (Eigen::Rotation2Dd(angle) * view.frame.center);
+  pose.rotation = roll_matrix(angle) * view.rotation;
+  if (settings_.lens.orthographic) return pose;
+  pose.perspective = settings_.lens.fixed_focal_px
+                         ? pose.scale / *settings_.lens.fixed_focal_px
+                         : perspective_prior(settings_.lens, pose.scale).mean;
+  pose.perspective = std::min(pose.perspective, 0.7);
+  const double focal = pose.scale / std::max(pose.perspective, 1e-6);
+  const Eigen::Vector3d ray(center.x(), center.y(), focal);
+  pose.rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray).toRotationMatrix() *
+                  pose.rotation;
+  return pose;
+}
+
+std::vector<OutlinePose> CoarseSearch::starts(int effort, std::size_t most) const {
+  const std::vector<PolarFrame> frames = evidence_.frames(effort);
+  std::vector<std::vector<Candidate>> found(frames.size() * views_.size());
+  parallel_for(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::unique_ptr<Evidence::RollScores> rolls = evidence_.rolls(frames[f]);
+      for (std::size_t v = 0; v < views_.size(); ++v) {
+        std::array<float, polar_angles> scores{};
+        rolls->score(views_[v].bits, scores);
+        for (int r = 0; r < polar_angles; ++r) {
+          const float here = scores[static_cast<std::size_t>(r)];
+          const float before = scores[static_cast<std::size_t>((r + polar_angles - 1) % polar_angles)];
+          const float after = scores[static_cast<std::size_t>((r + 1) % polar_angles)];
+          if (here > before && here >= after) found[f * views_.size() + v].push_back({here, f, v, r});
+        }
+      }
+    }
+  });
+  std::vector<Candidate> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::vector<OutlinePose> starts;
+  for (const Candidate& candidate : all) {
+    if (starts.size() == most) break;
+    const OutlinePose pose = pose_of(candidate, frames[candidate.frame]);
+    if (settings_.allowed && !settings_.allowed(pose)) continue;
+    const bool seen = std::any_of(starts.begin(), starts.end(), [&](const OutlinePose& better) {
+      return angle_between(better.rotation, pose.rotation) < distinct_rad &&
+             (better.shift - pose.shift).norm() < 0.1 * pose.scale &&
+             std::abs(std::log(better.scale / pose.scale)) < 0.1;
+    });
+    if (!seen) starts.push_back(pose);
+  }
+  return starts;
+}
+
+// Best first, without poses that another is the better version of, and no more than `most`.
+std::vector<RefinedPose> best_of(std::vector<RefinedPose> poses, std::size_t most) {
+  std::stable_sort(poses.begin(), poses.end(), [](const RefinedPose& a, const RefinedPose& b) {
+    return a.agreement.score() > b.agreement.score();
+  });
+  std::vector<RefinedPose> kept;
+  for (RefinedPose& pose : poses) {
+    if (kept.size() == most) break;
+    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const RefinedPose& better) {
+      return angle_between(better.pose.rotation, pose.pose.rotation) < same_pose_rad;
+    });
+    if (!seen) kept.push_back(std::move(pose));
+  }
+  return kept;
+}
+
+class Refinement {
+ public:
+  Refinement(const Evidence& evidence, const SearchSettings& settings)
+      : evidence_(evidence), settings_(settings) {}
+
+  [[nodiscard]] std::vector<RefinedPose> all(const OutlineMesh& mesh, const std::vector<OutlinePose>& starts,
+                                             const RefinementPlan& plan, const Progress& progress) const {
+    std::vector<RefinedPose> refined(starts.size());
+    parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
+      OutlineDrawing drawing;
+      for (std::size_t i = begin; i < end; ++i) {
+        if (progress.stop_requested()) return;
+        refined[i] = refine_pose(mesh, starts[i], evidence_, settings_.lens, plan, drawing);
+      }
+    });
+    return refined;
+  }
+
+ private:
+  const Evidence& evidence_;
+  const SearchSettings& settings_;
+};
+
+std::vector<OutlinePose> poses_of(const std::vector<RefinedPose>& refined) {
+  std::vector<OutlinePose> poses;
+  for (const RefinedPose& r : refined) poses.push_back(r.pose);
+  return poses;
+}
+
+// Under a long lens a body with a plane of symmetry of normal n looks the same from D R (I - 2 n n^T), D =
+// diag(1, 1, -1). The normals of such planes are principal axes.
+std::vector<OutlinePose> with_mirror_twins(const std::vector<OutlinePose>& poses,
+                                           const Eigen::Matrix3d& principal_axes) {
+  std::vector<OutlinePose> all = poses;
+  const Eigen::Matrix3d flip = Eigen::Vector3d(1, 1, -1).asDiagonal();
+  for (const OutlinePose& pose : poses) {
+    // About the ray to the body, not about the optical axis.
+    const double focal = pose.scale / std::max(pose.perspective, 1e-6);
+    const Eigen::Matrix3d off_axis =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(),
+                                           Eigen::Vector3d(pose.shift.x(), pose.shift.y(), focal))
+            .toRotationMatrix();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d n = principal_axes.col(axis);
+      OutlinePose twin = pose;
+      twin.rotation = off_axis * flip * off_axis.transpose() * pose.rotation *
+                      (Eigen::Matrix3d::Identity() - 2 * n * n.transpose());
+      all.push_back(twin);
+    }
+  }
+  return all;
+}
+
+// Of the surface, by the faces' middles and areas.
+Eigen::Matrix3d principal_axes_of(const OutlineMesh& mesh) {
+  double total = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Face& f : mesh.faces) {
+    const Eigen::Vector3d& a = mesh.vertices[f[0]];
+    const Eigen::Vector3d& b = mesh.vertices[f[1]];
+    const Eigen::Vector3d& c = mesh.vertices[f[2]];
+    const double area = (b - a).cross(c - a).norm() / 2;
+    const Eigen::Vector3d middle = (a + b + c) / 3;
+    total += area;
+    sum += area * middle;
+    squares += area * middle * middle.transpose();
+  }
+  if (!(total > 0)) return Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d mean = sum / total;
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares / total - mean * mean.transpose())
+      .eigenvectors();
+}
+
+}  // namespace
+
+PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence,
+                              const SearchSettings& settings, const Progress& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  PoseSearchResult result;
+  const Refinement refinement(evidence, settings);
+  const int last = evidence.levels() - 1;
+  const RefinementPlan glance{0, 5, 16, 6, 1.5, false};
+  const RefinementPlan coarse{0, 12, 8, 2, 1.0, false};
+  const RefinementPlan middle{std::min(1, last), 8, 6, 2, 1.0, false};
+
+  std::vector<RefinedPose> refined;
+  if (!settings.starts.empty()) {
+    refined = refinement.all(meshes.coarse, settings.starts, coarse, progress);
+  } else {
+    const CoarseSearch search(meshes, evidence, settings);
+    progress.update(0.2, "comparing views");
+    for (int effort = 0; effort < 2; ++effort) {
+      const std::vector<OutlinePose> starts =
+          search.starts(effort, effort == 0 ? candidates_at_first : candidates_with_effort);
+      result.statistics.candidates_listed = static_cast<int>(search.listed(effort));
+      result.statistics.candidates_tried += static_cast<int>(starts.size());
+      std::vector<RefinedPose> glanced =
+          best_of(refinement.all(meshes.coarse, starts, glance, progress), kept_after_glance);
+      progress.update(effort == 0 ? 0.4 : 0.6, "refining");
+      std::vector<RefinedPose> settled = refinement.all(meshes.coarse, poses_of(glanced), coarse, progress);
+      progress.update(effort == 0 ? 0.5 : 0.7, "refining");
+      refined.insert(refined.end(), settled.begin(), settled.end());
+      refined = best_of(std::move(refined), kept_after_glance);
+      if (refined.empty() || refined.front().agreement.score() > good_score) break;
+    }
+  }
+  result.statistics.coarse_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (settings.starts.empty()) {
+    refined = best_of(std::move(refined), kept_for_middle);
+    const std::vector<OutlinePose> twins =
+        with_mirror_twins(poses_of(best_of(refined, 2)), principal_axes_of(meshes.coarse));
+    std::vector<RefinedPose> more = refinement.all(meshes.coarse, twins, coarse, progress);
+    refined.insert(refined.end(), more.begin(), more.end());
+    if (settings.allowed)
+      std::erase_if(refined, [&](const RefinedPose& r) { return !settings.allowed(r.pose); });
+  }
+  refined = best_of(std::move(refined), kept_for_middle);
+  progress.update(0.75, "refining");
+  refined = best_of(refinement.all(meshes.middle, poses_of(refined), middle, progress), kept_for_full);
+  progress.update(0.85, "refining");
+  for (int level = std::min(2, last); level <= last; ++level) {
+    const RefinementPlan fine{level, 8, 5, 1.5, 1.0, false};
+    refined = best_of(refinement.all(meshes.full, poses_of(refined), fine, progress), kept_for_full);
+  }
+  progress.update(1, "refining");
+  result.poses = std::move(refined);
+  return result;
+}
+
+}  // namespace drape::alignment

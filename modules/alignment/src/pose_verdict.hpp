@@ -1,0 +1,23 @@
+// Whether the outline proves the pose.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drape/alignment/align.hpp"
+#include "evidence.hpp"
+#include "pose_refinement.hpp"
+
+namespace drape::alignment {
+
+struct PoseJudgement {
+  Verdict verdict = Verdict::reject;
+  std::vector<std::string> reasons;
+  std::optional<PoseSigma> sigma;
+};
+
+/// `poses` are distinct, best first, of the evidence's last level.
+[[nodiscard]] PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior& lens);
+
+}  // namespace drape::alignment

@@ -1,0 +1,111 @@
+#include "silhouette_alignment.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drape/base/error.hpp"
+#include "image_stencil.hpp"
+#include "photo_plane.hpp"
+#include "pose_search.hpp"
+#include "pose_verdict.hpp"
+#include "simplified_mesh.hpp"
+#include "stencil_evidence.hpp"
+
+namespace drape::alignment {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+constexpr int coarse_faces = 1500;
+constexpr int middle_faces = 8000;
+constexpr int least_object_px = 8;
+
+MeshLevels mesh_levels(const TriangleMesh& mesh, const UnitSphere& sphere) {
+  MeshLevels levels;
+  const TriangleMesh middle = simplified_mesh(mesh, middle_faces);
+  levels.full = outline_mesh(mesh, sphere);
+  levels.middle = outline_mesh(middle, sphere);
+  levels.coarse = outline_mesh(simplified_mesh(middle, coarse_faces), sphere);
+  return levels;
+}
+
+LensPrior lens_prior(const PhotoEvidence& evidence, const AlignOptions& options, const PhotoPlane& plane) {
+  LensPrior lens;
+  lens.photo_width_px = evidence.stencil.width();
+  lens.orthographic = options.projection == Camera::Projection::orthographic;
+  lens.hinted_focal_px = evidence.focal_px_prior;
+  if (options.fov_deg) lens.fixed_focal_px = evidence.stencil.width() / 2.0 / std::tan(*options.fov_deg * radians / 2);
+  if (options.focal_px) lens.fixed_focal_px = options.focal_px;
+  if (plane.focal_px()) lens.fixed_focal_px = plane.focal_px();
+  if (lens.orthographic) lens.fixed_focal_px.reset();
+  return lens;
+}
+
+SearchSettings search_settings(const PhotoEvidence& evidence, const AlignOptions& options,
+                               const PhotoPlane& plane, const UnitSphere& sphere) {
+  SearchSettings settings;
+  settings.lens = lens_prior(evidence, options, plane);
+  settings.principal_point_known = evidence.lens.has_value();
+  if (evidence.initial_camera) {
+    const std::optional<OutlinePose> start = pose_of(*evidence.initial_camera, sphere, plane.principal_px());
+    if (!start) throw config_error("the initial camera does not look at the mesh");
+    settings.starts = {*start};
+    settings.starts.front().principal.setZero();
+  }
+  if (options.max_roll_deg && evidence.up) {
+    const Eigen::Vector3d up = evidence.up->normalized();
+    const double most = *options.max_roll_deg * radians;
+    settings.allowed = [up, most](const OutlinePose& pose) {
+      const Eigen::Vector3d seen = pose.rotation * up;
+      // Looked at from straight above or below, nothing is up.
+      return seen.head<2>().norm() < 0.2 || std::abs(std::atan2(seen.x(), -seen.y())) <= most;
+    };
+  }
+  return settings;
+}
+
+}  // namespace
+
+Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& evidence,
+                           const AlignOptions& options, const Progress& progress) {
+  check_stencil(evidence.stencil);
+  if (object_extent(evidence.stencil) < least_object_px)
+    throw input_error("the object in the stencil is too small: {} pixels at its longest, and it must be {} at least",
+                      object_extent(evidence.stencil), least_object_px);
+  progress.update(0, "reading the outline");
+  const UnitSphere sphere = unit_sphere(mesh);
+  const PhotoPlane plane(evidence.stencil.width(), evidence.stencil.height(), evidence.lens);
+  const StencilEvidence outline(evidence.stencil, plane);
+  const MeshLevels meshes = mesh_levels(mesh, sphere);
+  progress.update(0.05, "drawing views");
+  const SearchSettings settings = search_settings(evidence, options, plane, sphere);
+  const PoseSearchResult found = search_poses(meshes, outline, settings, progress.part(0.05, 0.95));
+
+  Alignment alignment;
+  alignment.metrics.pass1_seconds = found.statistics.coarse_seconds;
+  alignment.metrics.candidates_listed = found.statistics.candidates_listed;
+  alignment.metrics.candidates_tried = found.statistics.candidates_tried;
+  const PoseJudgement judgement = judge_poses(found.poses, settings.lens);
+  alignment.verdict = judgement.verdict;
+  alignment.reasons = judgement.reasons;
+  for (const RefinedPose& pose : found.poses)
+    alignment.candidates.push_back({camera_of(pose.pose, sphere, options.projection, plane.principal_px(),
+                                              evidence.stencil.width(), evidence.stencil.height()),
+                                    100 * pose.agreement.overlap, pose.agreement.score(), judgement.verdict});
+  if (alignment.candidates.empty()) {
+    alignment.camera.width = evidence.stencil.width();
+    alignment.camera.height = evidence.stencil.height();
+    return alignment;
+  }
+  const RefinedPose& best = found.poses.front();
+  alignment.camera = alignment.candidates.front().camera;
+  alignment.overlap_percent = 100 * best.agreement.overlap;
+  alignment.inlier_fraction = 0.5 * (best.agreement.rim_inliers + best.agreement.image_inliers);
+  if (alignment.inlier_fraction > 0) alignment.boundary_error_px = best.agreement.rms_px;
+  alignment.sigma = judgement.sigma;
+  progress.update(1, "judging");
+  return alignment;
+}
+
+}  // namespace drape::alignment

@@ -1,0 +1,202 @@
+#include "stencil_evidence.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace drape::alignment {
+namespace {
+
+// Sizes of the object at the levels below the photo's own resolution, in pixels.
+constexpr int level_extents_px[] = {96, 288, 1000};
+// How far off the outline is still seen; at the coarsest level a sixth of the object.
+constexpr double reach_px = 8;
+constexpr double coarse_reach_px = 16;
+constexpr double same_side = 0.3;         // cosine between the outward directions of what may be matched
+constexpr double beyond_sample_px = 1.5;  // along a straight edge: its direction is good for no more
+
+std::vector<int> level_steps(int extent) {
+  std::vector<int> steps;
+  for (const int target : level_extents_px) {
+    const int step = (extent + target - 1) / target;
+    if (step > 1 && (steps.empty() || 2 * step <= steps.back())) steps.push_back(step);
+  }
+  steps.push_back(1);
+  return steps;
+}
+
+class StencilRolls final : public Evidence::RollScores {
+ public:
+  StencilRolls(const StencilLevel& level, const PolarFrame& frame) {
+    const auto sampled = [&](const BitImage& image) {
+      return polar_bits(frame, [&](double x, double y) {
+        return image.at(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+      });
+    };
+    stencil_.object = sampled(level.object);
+    stencil_.known = sampled(level.known);
+  }
+  void score(const PolarBits& view, std::span<float, polar_angles> scores) const override {
+    score_rolls(stencil_, view, scores);
+  }
+
+ private:
+  PolarStencil stencil_;
+};
+
+// Rim samples in square cells of the reach's size: what is near lies in the 3 x 3 cells about a place.
+class RimCells {
+ public:
+  RimCells(const std::vector<RimSample>& rim, const Window& window, double reach)
+      : rim_(rim), size_(std::max(4.0, reach)) {
+    columns_ = static_cast<int>(window.width / size_) + 3;
+    rows_ = static_cast<int>(window.height / size_) + 3;
+    begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+    for (const RimSample& sample : rim) ++begin_[cell(sample.at) + 1];
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    samples_.resize(rim.size());
+    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::uint32_t i = 0; i < rim.size(); ++i) samples_[next[cell(rim[i].at)]++] = i;
+  }
+
+  /// The nearest sample that looks the same way, or rim.size().
+  [[nodiscard]] std::size_t nearest(const ContourPoint& point, double reach) const {
+    std::size_t best = rim_.size();
+    double best_squared = reach * reach;
+    const int column = index(point.at.x(), columns_);
+    const int row = index(point.at.y(), rows_);
+    for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y)
+      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
+        const auto here = static_cast<std::size_t>(y * columns_ + x);
+        for (std::uint32_t i = begin_[here]; i < begin_[here + 1]; ++i) {
+          const RimSample& sample = rim_[samples_[i]];
+          const double squared = (sample.at - point.at).squaredNorm();
+          if (squared >= best_squared || sample.outward.dot(point.outward) < same_side) continue;
+          best = samples_[i];
+          best_squared = squared;
+        }
+      }
+    return best;
+  }
+
+ private:
+  [[nodiscard]] int index(double x, int count) const {
+    return std::clamp(static_cast<int>(std::floor(x / size_)) + 1, 0, count - 1);
+  }
+  [[nodiscard]] std::size_t cell(const Eigen::Vector2d& at) const {
+    return static_cast<std::size_t>(index(at.y(), rows_) * columns_ + index(at.x(), columns_));
+  }
+
+  const std::vector<RimSample>& rim_;
+  double size_;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::uint32_t> begin_;
+  std::vector<std::uint32_t> samples_;
+};
+
+// Holes of a scan that lie before the object in the photo count as covered: the mesh was not measured there,
+// the object is (the thesis's Will Rogers). A handle's opening stays open, as the photo is clear there.
+double overlap_of(const OutlineDrawing& drawing, const StencilLevel& level) {
+  const std::span<const std::uint64_t> model = drawing.stencil().words();
+  const std::span<const std::uint64_t> gaps = drawing.gaps().words();
+  const std::span<const std::uint64_t> object = level.object.words();
+  const std::span<const std::uint64_t> known = level.known.words();
+  std::int64_t both = 0;
+  std::int64_t either = 0;
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    std::uint64_t covered = model[i] & known[i];
+    if (!gaps.empty()) covered |= gaps[i] & object[i];
+    both += std::popcount(covered & object[i]);
+    either += std::popcount(covered | object[i]);
+  }
+  return either == 0 ? 0 : static_cast<double>(both) / static_cast<double>(either);
+}
+
+bool set_at(const BitImage& image, const Eigen::Vector2d& x) {
+  return image.at(static_cast<int>(std::floor(x.x())), static_cast<int>(std::floor(x.y())));
+}
+
+struct Tally {
+  double inlier = 0, total = 0, squares = 0;
+  void add(double length, double distance, double inlier_px) {
+    total += length;
+    if (std::abs(distance) > inlier_px) return;
+    inlier += length;
+    squares += length * distance * distance;
+  }
+};
+
+}  // namespace
+
+StencilEvidence::StencilEvidence(const Image8& stencil, const PhotoPlane& plane) {
+  for (const int step : level_steps(object_extent(stencil)))
+    levels_.push_back(stencil_level(stencil, plane, step, levels_.empty() ? coarse_reach_px : reach_px));
+}
+
+std::vector<PolarFrame> StencilEvidence::frames(int effort) const {
+  const PolarFrame middle = polar_frame(levels_.front().object);
+  std::vector<PolarFrame> frames = {middle};
+  if (effort == 0 || middle.radius == 0) return frames;
+  for (const double size : {1.0, 0.85, 1.18})
+    for (const double dx : {0.0, -0.25, 0.25})
+      for (const double dy : {0.0, -0.25, 0.25})
+        if (size != 1 || dx != 0 || dy != 0)
+          frames.push_back({middle.center + middle.radius * Eigen::Vector2d(dx, dy), size * middle.radius});
+  return frames;
+}
+
+std::unique_ptr<Evidence::RollScores> StencilEvidence::rolls(const PolarFrame& frame) const {
+  return std::make_unique<StencilRolls>(levels_.front(), frame);
+}
+
+Agreement StencilEvidence::match(const OutlineDrawing& drawing, int level_index, double reach,
+                                 double inlier_px, std::vector<RimResidual>& residuals) const {
+  const StencilLevel& level = at(level_index);
+  const std::vector<RimSample>& rim = drawing.rim();
+  residuals.clear();
+  Tally from_rim;
+  // Forward: every piece of the rim looks for the photo's outline.
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const RimSample& sample = rim[i];
+    if (!set_at(level.known, sample.at)) continue;
+    if (!drawing.gaps().words().empty()) {
+      const Eigen::Vector2d beside = sample.at + sample.outward;
+      if (set_at(drawing.gaps(), beside) && set_at(level.object, beside)) continue;
+    }
+    const std::int32_t near = level.nearest.at(static_cast<int>(sample.at.x()), static_cast<int>(sample.at.y()));
+    double distance = reach + 1;
+    if (near != StencilLevel::none) {
+      const ContourPoint& point = level.contour[static_cast<std::size_t>(near)];
+      if (point.outward.dot(sample.outward) >= same_side) distance = point.outward.dot(point.at - sample.at);
+      if (std::abs(distance) <= reach) residuals.push_back({i, point.outward, distance, sample.length});
+    }
+    from_rim.add(sample.length, distance, inlier_px);
+  }
+  // Backward: every piece of the photo's outline looks for the rim.
+  Tally from_image;
+  const RimCells cells(rim, level.window, reach);
+  for (const ContourPoint& point : level.contour) {
+    const std::size_t near = cells.nearest(point, reach);
+    double distance = reach + 1;
+    if (near != rim.size()) {
+      const RimSample& sample = rim[near];
+      const Eigen::Vector2d offset = point.at - sample.at;
+      const Eigen::Vector2d along(-sample.outward.y(), sample.outward.x());
+      const bool by_edge = sample.straight && std::abs(along.dot(offset)) <= beyond_sample_px;
+      const Eigen::Vector2d& direction = by_edge ? sample.outward : point.outward;
+      distance = direction.dot(offset);
+      residuals.push_back({near, direction, distance, point.length});
+    }
+    from_image.add(point.length, distance, inlier_px);
+  }
+  Agreement agreement;
+  agreement.overlap = overlap_of(drawing, level);
+  agreement.rim_inliers = from_rim.total > 0 ? from_rim.inlier / from_rim.total : 0;
+  agreement.image_inliers = from_image.total > 0 ? from_image.inlier / from_image.total : 0;
+  const double inlier = from_rim.inlier + from_image.inlier;
+  agreement.rms_px = inlier > 0 ? std::sqrt((from_rim.squares + from_image.squares) / inlier) : 0;
+  return agreement;
+}
+
+}  // namespace drape::alignment
