@@ -22,8 +22,8 @@ struct RimResidual {
 
 /// How a drawn pose fits. Shares are of length, 0..1.
 struct Agreement {
-  double overlap = 0;      // intersection over union, 0..1
-  double rim_inliers = 0;  // of the model's rim where the photo says anything
+  double overlap = 0;        // intersection over union, 0..1
+  double rim_inliers = 0;    // of the model's rim where the photo says anything
   double image_inliers = 0;  // of the photo's outline
   double rms_px = 0;         // of the inliers, in window pixels
 
@@ -52,8 +52,8 @@ class Evidence {
   };
   [[nodiscard]] virtual std::unique_ptr<RollScores> rolls(const PolarFrame& frame) const = 0;
 
-  /// What pulls at the rim of a drawn pose from up to `reach_px` away (into `residuals`), and how well it fits;
-  /// `inlier_px` is what counts as on the outline.
+  /// What pulls at the rim of a drawn pose from up to `reach_px` away (into `residuals`), and how well it
+  /// fits; `inlier_px` is what counts as on the outline.
   [[nodiscard]] virtual Agreement match(const OutlineDrawing& drawing, int level, double reach_px,
                                         double inlier_px, std::vector<RimResidual>& residuals) const = 0;
 };

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double sample_spacing_px = 2;
 constexpr double straight_px = 3;  // shorter edges zigzag about the rim of a smooth body
-constexpr double side_px = 0.9;    // beside a sample the stencil must be set on one side and clear on the other
+constexpr double side_px = 0.9;  // beside a sample the stencil must be set on one side and clear on the other
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -49,8 +49,8 @@ void OutlineDrawing::find_rim(const OutlineMesh& mesh, const OutlinePose& pose, 
     front_[f] = cross(places_[face[1]] - corner, places_[face[2]] - corner) < 0 ? 1 : 0;
   }
   for (const OutlineEdge& edge : mesh.edges) {
-    const bool rim = edge.other == OutlineEdge::no_face ||
-                     (front_[edge.face] != front_[edge.other]) != edge.turned;
+    const bool rim =
+        edge.other == OutlineEdge::no_face || (front_[edge.face] != front_[edge.other]) != edge.turned;
     if (rim) sample_edge(mesh, edge, pose, window);
   }
 }

@@ -13,13 +13,18 @@ namespace drape::alignment {
 
 /// The pixels that things are compared at: a cut-out of the photo, at this or a lower resolution.
 struct Window {
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // its corner, in the photo's pixels about the principal point
+  Eigen::Vector2d origin =
+      Eigen::Vector2d::Zero();  // its corner, in the photo's pixels about the principal point
   double px_per_photo_px = 1;
   int width = 0;
   int height = 0;
 
-  [[nodiscard]] Eigen::Vector2d from_photo(const Eigen::Vector2d& x) const { return (x - origin) * px_per_photo_px; }
-  [[nodiscard]] Eigen::Vector2d to_photo(const Eigen::Vector2d& x) const { return x / px_per_photo_px + origin; }
+  [[nodiscard]] Eigen::Vector2d from_photo(const Eigen::Vector2d& x) const {
+    return (x - origin) * px_per_photo_px;
+  }
+  [[nodiscard]] Eigen::Vector2d to_photo(const Eigen::Vector2d& x) const {
+    return x / px_per_photo_px + origin;
+  }
 };
 
 /// A piece of the outline, in the window's pixels.

@@ -94,7 +94,8 @@ UnitSphere unit_sphere(const TriangleMesh& mesh) {
 OutlineMesh outline_mesh(const TriangleMesh& mesh, const UnitSphere& sphere) {
   OutlineMesh result;
   result.vertices.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3d& x : mesh.vertices) result.vertices.push_back((x - sphere.center) / sphere.radius);
+  for (const Eigen::Vector3d& x : mesh.vertices)
+    result.vertices.push_back((x - sphere.center) / sphere.radius);
   const std::vector<std::uint32_t> first = first_at_place(mesh.vertices);
   result.faces.reserve(mesh.faces.size());
   for (const Face& f : mesh.faces) {

@@ -23,9 +23,9 @@ struct OutlineEdge {
   static constexpr std::uint32_t no_face = 0xffffffffU;
   std::uint32_t from = 0;
   std::uint32_t to = 0;
-  std::uint32_t face = 0;        // runs along the edge from `from` to `to`
+  std::uint32_t face = 0;         // runs along the edge from `from` to `to`
   std::uint32_t other = no_face;  // no_face at a border, and where more than two faces meet
-  bool turned = false;           // the other face runs along it the same way: one of the two is inside out
+  bool turned = false;            // the other face runs along it the same way: one of the two is inside out
 };
 
 /// Vertices at one place are one vertex here, whatever the file says, so that edges join the faces they part.

@@ -20,7 +20,7 @@ struct OutlinePose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double scale = 1;
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  double perspective = 0;                           // 0 to below 1
+  double perspective = 0;                               // 0 to below 1
   Eigen::Vector2d principal = Eigen::Vector2d::Zero();  // of the principal point, against the assumed one
 
   /// The pixel, about the assumed principal point, of `turned` = rotation * x_unit.
@@ -47,8 +47,9 @@ using PoseMatrix = Eigen::Matrix<double, pose_parameters, pose_parameters>;
 [[nodiscard]] double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 
 /// The pinhole (or orthographic camera) of this pose, for square pixels and the assumed principal point.
-[[nodiscard]] Camera camera_of(const OutlinePose& pose, const UnitSphere& sphere, Camera::Projection projection,
-                               const Eigen::Vector2d& principal_px, int width, int height);
+[[nodiscard]] Camera camera_of(const OutlinePose& pose, const UnitSphere& sphere,
+                               Camera::Projection projection, const Eigen::Vector2d& principal_px, int width,
+                               int height);
 
 /// The pose of a camera, whose two focal lengths are taken as one. Nothing where the sphere's middle is not
 /// before it.

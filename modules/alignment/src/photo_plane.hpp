@@ -8,7 +8,8 @@
 
 namespace drape::alignment {
 
-/// Ideal pixels are about the principal point. Without a known lens they are the photo's own, about its middle.
+/// Ideal pixels are about the principal point. Without a known lens they are the photo's own, about its
+/// middle.
 class PhotoPlane {
  public:
   /// Error{config} for a lens that is none, or distortion of another number of terms than 0, 4 or 5.

@@ -118,8 +118,7 @@ RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start, const
       break;
     }
     const double kernel = std::max(least_kernel_px, 2 * median_distance(residuals, buffer));
-    NormalEquations sum =
-        normal_equations(pose, drawing.rim(), residuals, window.px_per_photo_px, kernel);
+    NormalEquations sum = normal_equations(pose, drawing.rim(), residuals, window.px_per_photo_px, kernel);
     add_priors(pose, lens, plan.free_principal_point, sum);
     if (first || agreement.score() > best.agreement.score()) {
       best = {pose, agreement, sum.matrix, sum.chi_squared};

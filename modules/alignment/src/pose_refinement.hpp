@@ -43,11 +43,12 @@ struct RefinedPose {
   double chi_squared = 0;  // of the residuals, robustly, for comparing fits with more and fewer parameters
 };
 
-/// Levenberg-Marquardt (Marquardt 1963) on signed distances between the drawn rim and the evidence, reweighted
-/// by Geman and McClure's (1987) function of twice their median. Matches are made anew in every iteration; of
-/// all iterates the one with the best agreement is kept.
-[[nodiscard]] RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start, const Evidence& evidence,
-                                      const LensPrior& lens, const RefinementPlan& plan, OutlineDrawing& drawing);
+/// Levenberg-Marquardt (Marquardt 1963) on signed distances between the drawn rim and the evidence,
+/// reweighted by Geman and McClure's (1987) function of twice their median. Matches are made anew in every
+/// iteration; of all iterates the one with the best agreement is kept.
+[[nodiscard]] RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start,
+                                      const Evidence& evidence, const LensPrior& lens,
+                                      const RefinementPlan& plan, OutlineDrawing& drawing);
 
 /// The columns are the directions in which the pose may move: without those that the lens fixes.
 [[nodiscard]] Eigen::MatrixXd free_directions(const LensPrior& lens, bool principal_point);

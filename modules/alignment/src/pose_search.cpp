@@ -16,8 +16,8 @@ namespace {
 constexpr double radians = std::numbers::pi / 180;
 constexpr int atlas_views = 400;
 constexpr double usual_perspective = 0.2;
-constexpr double distinct_rad = 10 * radians;       // of candidates of the coarse search
-constexpr double same_pose_rad = 3 * radians;       // of refined ones
+constexpr double distinct_rad = 10 * radians;  // of candidates of the coarse search
+constexpr double same_pose_rad = 3 * radians;  // of refined ones
 constexpr std::size_t candidates_at_first = 48;
 constexpr std::size_t candidates_with_effort = 160;
 constexpr std::size_t kept_after_glance = 16;
@@ -67,8 +67,8 @@ class CoarseSearch {
   std::vector<AtlasView> views_;
 };
 
-// The view was drawn in the middle of the picture: the same look elsewhere is that of a body turned along with
-// the ray that it lies on.
+// The view was drawn in the middle of the picture: the same look elsewhere is that of a body turned along
+// with the ray that it lies on.
 OutlinePose CoarseSearch::pose_of(const Candidate& candidate, const PolarFrame& frame) const {
   const AtlasView& view = views_[candidate.view];
   const Window& window = evidence_.window(0);
@@ -79,14 +79,13 @@ OutlinePose CoarseSearch::pose_of(const Candidate& candidate, const PolarFrame& 
   pose.shift = center - pose.scale * (Eigen::Rotation2Dd(angle) * view.frame.center);
   pose.rotation = roll_matrix(angle) * view.rotation;
   if (settings_.lens.orthographic) return pose;
-  pose.perspective = settings_.lens.fixed_focal_px
-                         ? pose.scale / *settings_.lens.fixed_focal_px
-                         : perspective_prior(settings_.lens, pose.scale).mean;
+  pose.perspective = settings_.lens.fixed_focal_px ? pose.scale / *settings_.lens.fixed_focal_px
+                                                   : perspective_prior(settings_.lens, pose.scale).mean;
   pose.perspective = std::min(pose.perspective, 0.7);
   const double focal = pose.scale / std::max(pose.perspective, 1e-6);
   const Eigen::Vector3d ray(center.x(), center.y(), focal);
-  pose.rotation = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray).toRotationMatrix() *
-                  pose.rotation;
+  pose.rotation =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray).toRotationMatrix() * pose.rotation;
   return pose;
 }
 

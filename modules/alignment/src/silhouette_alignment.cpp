@@ -35,7 +35,8 @@ LensPrior lens_prior(const PhotoEvidence& evidence, const AlignOptions& options,
   lens.photo_width_px = evidence.stencil.width();
   lens.orthographic = options.projection == Camera::Projection::orthographic;
   lens.hinted_focal_px = evidence.focal_px_prior;
-  if (options.fov_deg) lens.fixed_focal_px = evidence.stencil.width() / 2.0 / std::tan(*options.fov_deg * radians / 2);
+  if (options.fov_deg)
+    lens.fixed_focal_px = evidence.stencil.width() / 2.0 / std::tan(*options.fov_deg * radians / 2);
   if (options.focal_px) lens.fixed_focal_px = options.focal_px;
   if (plane.focal_px()) lens.fixed_focal_px = plane.focal_px();
   if (lens.orthographic) lens.fixed_focal_px.reset();
@@ -71,8 +72,9 @@ Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& eviden
                            const AlignOptions& options, const Progress& progress) {
   check_stencil(evidence.stencil);
   if (object_extent(evidence.stencil) < least_object_px)
-    throw input_error("the object in the stencil is too small: {} pixels at its longest, and it must be {} at least",
-                      object_extent(evidence.stencil), least_object_px);
+    throw input_error(
+        "the object in the stencil is too small: {} pixels at its longest, and it must be {} at least",
+        object_extent(evidence.stencil), least_object_px);
   progress.update(0, "reading the outline");
   const UnitSphere sphere = unit_sphere(mesh);
   const PhotoPlane plane(evidence.stencil.width(), evidence.stencil.height(), evidence.lens);

@@ -164,7 +164,8 @@ Agreement StencilEvidence::match(const OutlineDrawing& drawing, int level_index,
       const Eigen::Vector2d beside = sample.at + sample.outward;
       if (set_at(drawing.gaps(), beside) && set_at(level.object, beside)) continue;
     }
-    const std::int32_t near = level.nearest.at(static_cast<int>(sample.at.x()), static_cast<int>(sample.at.y()));
+    const std::int32_t near =
+        level.nearest.at(static_cast<int>(sample.at.x()), static_cast<int>(sample.at.y()));
     double distance = reach + 1;
     if (near != StencilLevel::none) {
       const ContourPoint& point = level.contour[static_cast<std::size_t>(near)];

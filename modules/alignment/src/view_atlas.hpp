@@ -12,7 +12,7 @@ namespace drape::alignment {
 struct AtlasView {
   Eigen::Matrix3d rotation;  // camera from mesh, before any roll
   PolarBits bits;
-  PolarFrame frame;          // of the unit sphere seen at scale 1: centre and radius of gyration
+  PolarFrame frame;  // of the unit sphere seen at scale 1: centre and radius of gyration
 };
 
 /// `count` directions on a Fibonacci spiral, seen in the middle of the picture with this perspective. Views

@@ -24,7 +24,7 @@ class ExhaustiveOption : public ::testing::Test {
   Camera truth = view_of({20, 70, 130});
   Image8 photo = stencil_of(mesh, truth);
   std::optional<double> prior;
-  AlignOptions options;
+  AlignOptions options{.method = Method::exhaustive};
   ExhaustiveOptions& o = options.exhaustive;
 };
 
@@ -47,11 +47,27 @@ TEST_F(ExhaustiveOption, AreAllDescribed) {
   AlignOptions all;
   std::vector<std::string> names;
   for (const Option& option : options_of(all)) names.push_back(option.name);
-  EXPECT_EQ(names, (std::vector<std::string>{
-                       "method", "projection", "fov_deg", "first_pass_step_deg", "refine_start_deg",
-                       "min_step_deg", "drop_step_deg", "drop_overlap_percent", "accept_overlap_percent",
-                       "max_candidates_percent", "translation_threshold_px", "fov_range_deg", "fitness",
-                       "initial_scale", "box_only", "scale_memory", "stencil_px", "max_faces"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"method",
+                                             "projection",
+                                             "focal_px",
+                                             "fov_deg",
+                                             "max_roll_deg",
+                                             "initial_camera",
+                                             "first_pass_step_deg",
+                                             "refine_start_deg",
+                                             "min_step_deg",
+                                             "drop_step_deg",
+                                             "drop_overlap_percent",
+                                             "accept_overlap_percent",
+                                             "max_candidates_percent",
+                                             "translation_threshold_px",
+                                             "fov_range_deg",
+                                             "fitness",
+                                             "initial_scale",
+                                             "box_only",
+                                             "scale_memory",
+                                             "stencil_px",
+                                             "max_faces"}));
 }
 
 TEST_F(ExhaustiveOption, FirstPassStepSetsTheSizeOfTheList) {
