@@ -53,6 +53,19 @@ struct NewArguments {
 };
 void new_command(const NewArguments& arguments);
 
+/// What is in scan files, photos and files of poses.
+struct InfoArguments {
+  std::vector<std::filesystem::path> files;
+};
+void info_command(const InfoArguments& arguments);
+
+/// One scan file as another format, which the extension of `output` tells.
+struct ConvertArguments {
+  std::filesystem::path input;
+  std::filesystem::path output;
+};
+void convert_command(const ConvertArguments& arguments);
+
 /// Writes the reference page; with `check` only compares, and says whether it is as the code makes it.
 [[nodiscard]] bool reference_command(const std::filesystem::path& file, bool check);
 

@@ -68,6 +68,8 @@ struct CommandLine {
   ValidateArguments validate;
   std::filesystem::path status = ".";
   NewArguments create;
+  InfoArguments info;
+  ConvertArguments convert;
   std::filesystem::path reference = "config/REFERENCE.md";
   bool reference_check = false;
   SimulateArguments simulate;
@@ -84,6 +86,8 @@ struct CommandLine {
     add_explain();
     add_validate();
     add_new();
+    add_info();
+    add_convert();
     add_reference();
     add_simulate();
     app.footer(
@@ -188,6 +192,33 @@ struct CommandLine {
     sub->callback([this] {
       action = [this] {
         new_command(create);
+        return 0;
+      };
+    });
+  }
+
+  void add_info() {
+    CLI::App* sub = command("info", "Say what is in scan files, photos and files of poses",
+                            "drape info scans/*.ptx photos/front.jpg");
+    sub->add_option("files", info.files, "The files")->required()->type_name("FILES");
+    sub->callback([this] {
+      action = [this] {
+        info_command(info);
+        return 0;
+      };
+    });
+  }
+
+  void add_convert() {
+    CLI::App* sub = command("convert",
+                            "Write a scan file as .ply, .pcd, .xyz, .txt, .asc or .csv; several scans in "
+                            "it become several files",
+                            "drape convert survey.e57 survey.ply");
+    sub->add_option("input", convert.input, "Any scan file")->required()->type_name("IN");
+    sub->add_option("output", convert.output, "The file to write")->required()->type_name("OUT");
+    sub->callback([this] {
+      action = [this] {
+        convert_command(convert);
         return 0;
       };
     });

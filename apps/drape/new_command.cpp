@@ -58,7 +58,7 @@ void new_command(const NewArguments& arguments) {
   fs::path poses;
   for (const fs::path& file : arguments.scans) {
     if (!fs::exists(file)) throw input_error("{}: no such file", file.string());
-    if (extension(file) == "conf")
+    if (io::is_pose_file(file))
       poses = file;
     else
       scans.push_back(file);

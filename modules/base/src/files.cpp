@@ -1,5 +1,7 @@
 #include "drape/base/files.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -28,6 +30,30 @@ std::string read_file(const fs::path& file) {
   if (std::ferror(handle.get()))
     throw input_error("{}: cannot read: {}", file.string(), std::strerror(errno));
   return bytes;
+}
+
+FileBytes::FileBytes(const fs::path& file) {
+  constexpr std::uintmax_t least_mapped = 64 << 20;
+  std::error_code problem;
+  const std::uintmax_t size = fs::is_regular_file(file, problem) ? fs::file_size(file, problem) : 0;
+  if (problem || size < least_mapped) {
+    loaded_ = read_file(file);
+    view_ = loaded_;
+    return;
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(std::fopen(file.c_str(), "rb"), &std::fclose);
+  if (!handle) throw input_error("{}: cannot read: {}", file.string(), std::strerror(errno));
+  mapped_ = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, ::fileno(handle.get()), 0);
+  if (mapped_ == MAP_FAILED) {
+    mapped_ = nullptr;
+    throw input_error("{}: cannot read: {}", file.string(), std::strerror(errno));
+  }
+  ::madvise(mapped_, size, MADV_SEQUENTIAL);
+  view_ = {static_cast<const char*>(mapped_), size};
+}
+
+FileBytes::~FileBytes() {
+  if (mapped_ != nullptr) ::munmap(mapped_, view_.size());
 }
 
 void write_file_aside(const fs::path& file, const std::function<void(const fs::path&)>& write) {

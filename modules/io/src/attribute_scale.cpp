@@ -5,7 +5,7 @@
 
 namespace drape::io {
 
-std::vector<float> scaled_intensities(std::span<const double> values, double full_scale) {
+std::vector<float> scaled_intensities(std::vector<float> values, double full_scale) {
   double least = 0;
   double most = 0;
   for (const double value : values)
@@ -21,52 +21,50 @@ std::vector<float> scaled_intensities(std::span<const double> values, double ful
   } else if (scale <= 0) {
     scale = most <= 1 ? 1 : most <= 255 ? 255 : most <= 65535 ? 65535 : most;
   }
-  std::vector<float> scaled;
-  scaled.reserve(values.size());
-  for (const double value : values)
-    scaled.push_back(std::isfinite(value) ? static_cast<float>(std::clamp((value + offset) / scale, 0.0, 1.0))
-                                          : 0.0F);
-  return scaled;
+  for (float& value : values)
+    value = std::isfinite(value)
+                ? static_cast<float>(std::clamp((static_cast<double>(value) + offset) / scale, 0.0, 1.0))
+                : 0.0F;
+  return values;
 }
 
-std::vector<Eigen::Vector3f> scaled_colors(std::span<const Eigen::Vector3d> colors, double full_scale) {
+std::vector<Eigen::Vector3f> scaled_colors(std::vector<Eigen::Vector3f> colors, double full_scale) {
   double scale = full_scale;
   if (scale <= 0) {
     double most = 0;
-    for (const Eigen::Vector3d& color : colors)
+    for (const Eigen::Vector3f& color : colors)
       for (const double channel : color)
         if (std::isfinite(channel)) most = std::max(most, channel);
     scale = most <= 1 ? 1 : most <= 255 ? 255 : 65535;
   }
-  const auto channel = [&](double value) {
-    // The division of floats is what the writers undo: byte / 255.
-    return std::isfinite(value)
-               ? static_cast<float>(std::clamp(value, 0.0, scale)) / static_cast<float>(scale)
-               : 0.0F;
-  };
-  std::vector<Eigen::Vector3f> scaled;
-  scaled.reserve(colors.size());
-  for (const Eigen::Vector3d& color : colors)
-    scaled.emplace_back(channel(color.x()), channel(color.y()), channel(color.z()));
-  return scaled;
+  const auto full = static_cast<float>(scale);
+  for (Eigen::Vector3f& color : colors)
+    for (float& value : color)
+      // The division of floats is what the writers undo: byte / 255.
+      value = std::isfinite(value) ? std::clamp(value, 0.0F, full) / full : 0.0F;
+  return colors;
+}
+
+Eigen::Vector3f unit_normal(const Eigen::Vector3d& normal) {
+  if (!normal.allFinite()) return Eigen::Vector3f::Zero();
+  return normal.stableNormalized().cast<float>();
 }
 
 std::vector<Eigen::Vector3f> unit_normals(std::span<const Eigen::Vector3d> normals) {
   std::vector<Eigen::Vector3f> units;
   units.reserve(normals.size());
-  for (const Eigen::Vector3d& normal : normals) {
-    const bool finite = normal.allFinite();
-    units.push_back(finite ? Eigen::Vector3f(normal.stableNormalized().cast<float>())
-                           : Eigen::Vector3f(0, 0, 0));
-  }
+  for (const Eigen::Vector3d& normal : normals) units.push_back(unit_normal(normal));
   return units;
+}
+
+float clamped_confidence(double value) {
+  return std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 0.0F;
 }
 
 std::vector<float> clamped_confidences(std::span<const double> values) {
   std::vector<float> clamped;
   clamped.reserve(values.size());
-  for (const double value : values)
-    clamped.push_back(std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 0.0F);
+  for (const double value : values) clamped.push_back(clamped_confidence(value));
   return clamped;
 }
 

@@ -65,10 +65,14 @@ std::size_t append_fan(std::vector<Face>& faces, std::span<const std::uint32_t> 
   return faces.size() - before;
 }
 
+TriangleMesh parse_mesh(const std::string& file, std::string_view bytes) {
+  return format_of(file, bytes).read(file, bytes);
+}
+
 TriangleMesh read_mesh(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   if (bytes.empty()) throw input_error("{}: is empty", file.string());
-  TriangleMesh mesh = format_of(file, bytes).read(file.string(), bytes);
+  TriangleMesh mesh = parse_mesh(file.string(), bytes);
   if (mesh.faces.empty())
     throw input_error("{}: has no faces: it is a point cloud or an empty mesh", file.string());
   return without_bad_vertices(file.string(), std::move(mesh));

@@ -18,6 +18,9 @@ using MeshReader = TriangleMesh (*)(const std::string& file, std::string_view by
 [[nodiscard]] TriangleMesh read_stl_mesh(const std::string& file, std::string_view bytes);
 [[nodiscard]] TriangleMesh read_off_mesh(const std::string& file, std::string_view bytes);
 
+/// By content where it can be told, else by extension.
+[[nodiscard]] TriangleMesh parse_mesh(const std::string& file, std::string_view bytes);
+
 /// What the content tells.
 [[nodiscard]] bool looks_like_binary_stl(std::string_view bytes);
 [[nodiscard]] bool looks_like_off(std::string_view bytes);

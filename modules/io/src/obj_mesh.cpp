@@ -110,7 +110,7 @@ class ObjReader {
     }
     // Three numbers after x y z are a colour, four a colour and its alpha; one is a weight.
     if (count < 3) return;
-    colors_.emplace_back(more[0], more[1], more[2]);
+    colors_.emplace_back(Eigen::Vector3d(more[0], more[1], more[2]).cast<float>());
   }
 
   void face(Words& words) {
@@ -196,7 +196,7 @@ class ObjReader {
   std::string joined_;
   TriangleMesh mesh_;
   std::vector<Eigen::Vector3d> normals_;
-  std::vector<Eigen::Vector3d> colors_;
+  std::vector<Eigen::Vector3f> colors_;
   std::size_t texture_vertices_ = 0;
   std::vector<Corner> corners_;
   std::vector<Polygon> polygons_;

@@ -106,7 +106,7 @@ class OffReader {
       if (found == more.size()) throw line_error(file_, lines_.number(), "too many numbers");
       more[found++] = number();
     }
-    if (found >= 3) colors_.emplace_back(more[0], more[1], more[2]);
+    if (found >= 3) colors_.emplace_back(Eigen::Vector3d(more[0], more[1], more[2]).cast<float>());
   }
 
   void face() {
@@ -139,7 +139,7 @@ class OffReader {
   std::size_t skipped_ = 0;
   std::vector<std::uint32_t> polygon_;
   std::vector<Eigen::Vector3d> vertex_normals_;
-  std::vector<Eigen::Vector3d> colors_;
+  std::vector<Eigen::Vector3f> colors_;
   TriangleMesh mesh_;
 };
 

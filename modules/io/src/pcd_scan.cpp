@@ -325,7 +325,7 @@ class PcdReader {
                                        static_cast<float>(bits & 255) / 255.0F);
       }
     if (const Column* intensity = column("intensity"))
-      scan.cloud.intensities = scaled_intensities(intensity->values);
+      scan.cloud.intensities = scaled_intensities({intensity->values.begin(), intensity->values.end()});
     if (header_.origin) scan.view = {ScanView::Kind::origin, *header_.origin};
     add_grid(scan);
     return scan;
@@ -353,8 +353,8 @@ class PcdReader {
 
 }  // namespace
 
-std::vector<RangeScan> read_pcd_scan(const std::string& file, std::string_view bytes) {
-  return {PcdReader(file, bytes).read()};
+std::vector<RangeScan> read_pcd_scan(const ScanSource& source) {
+  return {PcdReader(source.file, source.bytes).read()};
 }
 
 }  // namespace drape::io

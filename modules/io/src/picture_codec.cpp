@@ -115,9 +115,8 @@ Image8 without_alpha(const Image8& image) {
   return rgb;
 }
 
-}  // namespace
-
-DecodedPicture decode_picture(const std::string& file, std::string_view bytes) {
+/// As OpenCV has it.
+cv::Mat decoded(const std::string& file, std::string_view bytes) {
   silence_opencv();
   cv::Mat mat;
   try {
@@ -129,6 +128,25 @@ DecodedPicture decode_picture(const std::string& file, std::string_view bytes) {
     throw input_error("{}: the picture is damaged: it cannot be decoded", file);
   }
   if (mat.empty()) throw input_error("{}: the picture is damaged: it cannot be decoded", file);
+  return mat;
+}
+
+}  // namespace
+
+ImageF decode_depth(const std::string& file, std::string_view bytes) {
+  const cv::Mat mat = decoded(file, bytes);
+  if (mat.channels() != 1 || (mat.depth() != CV_16U && mat.depth() != CV_32F))
+    throw input_error("{}: a depth picture has one channel of 16-bit numbers or floats", file);
+  ImageF depth(mat.cols, mat.rows, 1);
+  for (int y = 0; y < mat.rows; ++y)
+    for (int x = 0; x < mat.cols; ++x)
+      depth.at(x, y) =
+          mat.depth() == CV_16U ? static_cast<float>(mat.at<std::uint16_t>(y, x)) : mat.at<float>(y, x);
+  return depth;
+}
+
+DecodedPicture decode_picture(const std::string& file, std::string_view bytes) {
+  const cv::Mat mat = decoded(file, bytes);
   if (mat.channels() == 1 || mat.channels() == 3 || mat.channels() == 4) {
     if (mat.depth() == CV_8U) return converted<std::uint8_t>(mat);
     if (mat.depth() == CV_16U) return converted<std::uint16_t>(mat);

@@ -16,4 +16,8 @@ struct DecodedPicture {
 /// Error{input} if the bytes are no whole picture or hold samples that are not whole numbers of 8 or 16 bits.
 [[nodiscard]] DecodedPicture decode_picture(const std::string& file, std::string_view bytes);
 
+/// A picture of one channel of 16-bit whole numbers or floats, in its own numbers. Error{input} for any
+/// other.
+[[nodiscard]] ImageF decode_depth(const std::string& file, std::string_view bytes);
+
 }  // namespace drape::io

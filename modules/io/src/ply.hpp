@@ -103,6 +103,9 @@ struct PlyFile {
 /// last element.
 [[nodiscard]] PlyFile parse_ply(const std::string& file, std::string_view bytes,
                                 const std::vector<PlyWanted>& wanted);
+/// The same where the header is known: the first element of `header` begins at byte `header.size`.
+[[nodiscard]] PlyFile parse_ply_body(const std::string& file, const PlyHeader& header, std::string_view bytes,
+                                     const std::vector<PlyWanted>& wanted);
 [[nodiscard]] PlyFile read_ply(const std::filesystem::path& file, const std::vector<PlyWanted>& wanted);
 
 /// Builds a binary little-endian PLY: the header first, then the rows in its order.

@@ -376,14 +376,17 @@ Error PlyFile::row_error(const PlyTable& table, std::size_t row, const std::stri
                                            : byte_error(file, table.position(row), "{}", what);
 }
 
-PlyFile parse_ply(const std::string& file, std::string_view bytes, const std::vector<PlyWanted>& wanted) {
-  PlyFile ply;
-  ply.file = file;
-  ply.header = parse_ply_header(file, bytes);
-  ply.tables = ply.header.format == PlyFormat::ascii
-                   ? TextBody(file, ply.header, wanted, bytes.substr(ply.header.size)).read()
+PlyFile parse_ply_body(const std::string& file, const PlyHeader& header, std::string_view bytes,
+                       const std::vector<PlyWanted>& wanted) {
+  PlyFile ply{file, header, {}};
+  ply.tables = header.format == PlyFormat::ascii
+                   ? TextBody(file, ply.header, wanted, bytes.substr(header.size)).read()
                    : BinaryBody(file, ply.header, wanted, bytes).read();
   return ply;
+}
+
+PlyFile parse_ply(const std::string& file, std::string_view bytes, const std::vector<PlyWanted>& wanted) {
+  return parse_ply_body(file, parse_ply_header(file, bytes), bytes, wanted);
 }
 
 PlyFile read_ply(const std::filesystem::path& file, const std::vector<PlyWanted>& wanted) {

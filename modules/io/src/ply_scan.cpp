@@ -7,6 +7,7 @@
 #include "drape/base/numbers.hpp"
 #include "drape/io/scan_files.hpp"
 #include "ply_vertices.hpp"
+#include "scan_builder.hpp"
 #include "scan_formats.hpp"
 #include "text_lines.hpp"
 
@@ -162,6 +163,54 @@ std::vector<PlyWanted> scan_columns() {
   return wanted;
 }
 
+// --- reading in parts
+
+constexpr std::uint64_t part_rows = 1 << 16;
+
+/// A binary file with more points than may be held, whose vertices come first and have one size.
+bool can_be_streamed(const PlyHeader& header, const ScanSource& source) {
+  if (source.options.most_points == 0 || header.format == PlyFormat::ascii || header.elements.empty())
+    return false;
+  const PlyElement& first = header.elements.front();
+  return first.name == "vertex" && first.count > source.options.most_points &&
+         std::none_of(first.properties.begin(), first.properties.end(),
+                      [](const PlyProperty& property) { return property.list; });
+}
+
+/// Its vertices part by part, each read as a PLY of its own; what follows them is left out.
+RangeScan streamed_scan(const PlyHeader& header, const ScanSource& source) {
+  const PlyElement& vertex = header.elements.front();
+  std::uint64_t row_bytes = 0;
+  for (const PlyProperty& property : vertex.properties) row_bytes += size_of(property.type);
+  if (row_bytes == 0 || vertex.count > (source.bytes.size() - header.size) / row_bytes)
+    throw byte_error(source.file, header.size,
+                     "element \"vertex\" claims {} rows of {} bytes, but only {} bytes follow", vertex.count,
+                     row_bytes, source.bytes.size() - header.size);
+  PlyHeader part_header = header;
+  part_header.elements = {vertex};
+  std::optional<ScanBuilder> builder;
+  VertexScales scales;
+  for (std::uint64_t row = 0; row < vertex.count; row += part_rows) {
+    const std::uint64_t rows = std::min(part_rows, vertex.count - row);
+    part_header.elements[0].count = rows;
+    part_header.size = static_cast<std::size_t>(header.size + row * row_bytes);
+    const PlyFile part =
+        parse_ply_body(source.file, part_header, source.bytes.substr(0, part_header.size + rows * row_bytes),
+                       vertex_columns());
+    const VertexSamples samples(part);
+    if (!builder) {
+      builder.emplace(source.file, samples.fields(), source.options.most_points);
+      scales = samples.scales();
+    }
+    for (std::size_t i = 0; i < rows; ++i) builder->add(samples.sample(i));
+  }
+  RangeScan scan = builder->finish(scales.color, scales.intensity);
+  PlyFile frame{source.file, header, {}};
+  scan.view = view_of(frame, false);
+  scan.world_from_scan = pose_of(frame);
+  return scan;
+}
+
 // --- writing
 
 void put_scan_infos(PlyBuilder& ply, const RangeScan& scan) {
@@ -192,8 +241,10 @@ void put_grid_rows(PlyBuilder& ply, const RangeGrid& grid) {
 
 }  // namespace
 
-std::vector<RangeScan> read_ply_scan(const std::string& file, std::string_view bytes) {
-  return {scan_of(parse_ply(file, bytes, scan_columns()))};
+std::vector<RangeScan> read_ply_scan(const ScanSource& source) {
+  const PlyHeader header = parse_ply_header(source.file, source.bytes);
+  if (can_be_streamed(header, source)) return {streamed_scan(header, source)};
+  return {scan_of(parse_ply(source.file, source.bytes, scan_columns()))};
 }
 
 void write_scan_ply(const std::filesystem::path& file, const RangeScan& scan) {

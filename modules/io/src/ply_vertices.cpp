@@ -40,6 +40,14 @@ std::vector<Eigen::Vector3d> triples(const Columns& columns) {
   return values;
 }
 
+std::vector<Eigen::Vector3f> float_triples(const Columns& columns) {
+  std::vector<Eigen::Vector3f> values;
+  values.reserve(columns[0]->values.size());
+  for (std::size_t i = 0; i < columns[0]->values.size(); ++i)
+    values.emplace_back(triple(columns, i).cast<float>());
+  return values;
+}
+
 /// As they were written: floats, or bytes for 0..1.
 std::vector<Eigen::Vector3f> exact_floats(const Columns& columns) {
   const bool bytes = columns[0]->property.type == PlyType::uint8;
@@ -99,27 +107,53 @@ std::vector<PlyWanted> vertex_columns() {
   return wanted;
 }
 
-PointCloud vertices_of(const PlyFile& ply) {
+VertexSamples::VertexSamples(const PlyFile& ply) {
   const PlyTable* table = ply.table("vertex");
-  const Columns xyz =
-      table == nullptr ? Columns{} : Columns{table->column("x"), table->column("y"), table->column("z")};
-  if (!complete(xyz)) throw input_error("{}: has no element \"vertex\" with x, y and z", ply.file);
+  const auto scalar = [&](std::initializer_list<std::string_view> names) -> const PlyColumn* {
+    const PlyColumn* column = table == nullptr ? nullptr : table->column_of(names);
+    return column == nullptr || column->property.list ? nullptr : column;
+  };
+  const auto whole = [](Columns columns) { return complete(columns) ? columns : Columns{}; };
+  position_ = whole({scalar({"x"}), scalar({"y"}), scalar({"z"})});
+  if (!complete(position_)) throw input_error("{}: has no element \"vertex\" with x, y and z", ply.file);
+  normal_ = whole({scalar({"nx", "normal_x"}), scalar({"ny", "normal_y"}), scalar({"nz", "normal_z"})});
+  color_ = whole({scalar({"red", "diffuse_red", "r"}), scalar({"green", "diffuse_green", "g"}),
+                  scalar({"blue", "diffuse_blue", "b"})});
+  intensity_ = scalar({"intensity", "scalar_Intensity", "scalar_intensity"});
+  confidence_ = scalar({"confidence"});
+  const auto scale = [&](const PlyColumn* column) {
+    const double by_type = column == nullptr ? 0 : full_scale(*column);
+    return has_mark(ply.header) && by_type == 0 ? 1 : by_type;
+  };
+  scales_ = {scale(color_[0]), scale(intensity_)};
+}
+
+SampleFields VertexSamples::fields() const {
+  return {normal_[0] != nullptr, color_[0] != nullptr, intensity_ != nullptr, confidence_ != nullptr};
+}
+
+Sample VertexSamples::sample(std::size_t row) const {
+  Sample sample;
+  sample.position = triple(position_, row);
+  if (normal_[0] != nullptr) sample.normal = triple(normal_, row);
+  if (color_[0] != nullptr) sample.color = triple(color_, row);
+  if (intensity_ != nullptr) sample.intensity = intensity_->values[row];
+  if (confidence_ != nullptr) sample.confidence = confidence_->values[row];
+  return sample;
+}
+
+PointCloud vertices_of(const PlyFile& ply) {
+  const VertexSamples columns(ply);
   const bool exact = has_mark(ply.header);
   PointCloud cloud;
-  cloud.positions = triples(xyz);
-
-  const Columns normal{table->column_of({"nx", "normal_x"}), table->column_of({"ny", "normal_y"}),
-                       table->column_of({"nz", "normal_z"})};
-  if (complete(normal)) cloud.normals = exact ? exact_floats(normal) : unit_normals(triples(normal));
-  const Columns color{table->column_of({"red", "diffuse_red", "r"}),
-                      table->column_of({"green", "diffuse_green", "g"}),
-                      table->column_of({"blue", "diffuse_blue", "b"})};
-  if (complete(color))
-    cloud.colors = exact ? exact_floats(color) : scaled_colors(triples(color), full_scale(*color[0]));
-  if (const PlyColumn* c = table->column_of({"intensity", "scalar_Intensity", "scalar_intensity"});
-      c && !c->property.list)
-    cloud.intensities = exact ? floats_of(*c) : scaled_intensities(c->values, full_scale(*c));
-  if (const PlyColumn* c = table->column("confidence"); c && !c->property.list)
+  cloud.positions = triples(columns.position());
+  if (const Columns& normal = columns.normal(); complete(normal))
+    cloud.normals = exact ? exact_floats(normal) : unit_normals(triples(normal));
+  if (const Columns& color = columns.color(); complete(color))
+    cloud.colors = exact ? exact_floats(color) : scaled_colors(float_triples(color), columns.scales().color);
+  if (const PlyColumn* c = columns.intensity())
+    cloud.intensities = exact ? floats_of(*c) : scaled_intensities(floats_of(*c), columns.scales().intensity);
+  if (const PlyColumn* c = columns.confidence())
     cloud.confidences = exact ? floats_of(*c) : clamped_confidences(c->values);
   return cloud;
 }

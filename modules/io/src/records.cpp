@@ -324,7 +324,8 @@ void write_scans(const std::filesystem::path& file, const ScansRecord& record) {
                              {"grid", scan.grid ? Json(*scan.grid) : Json()},
                              {"view", json_of(scan.view)},
                              {"spacing_m", json_of(scan.spacing_m, "spacing_m")},
-                             {"dropped", std::move(dropped)}});
+                             {"dropped", std::move(dropped)},
+                             {"scan_offset_m", list_of(scan.scan_offset_m, "scan_offset_m")}});
   }
   save(file, root);
 }
@@ -340,7 +341,7 @@ ScansRecord read_scans_record(const std::filesystem::path& file) {
     const Node scan = scans.at(i);
     record.scans.push_back({scan["file"].text(), static_cast<int>(scan["index_in_file"].integer(0, 1 << 30)),
                             scan["points"].count(), grid_of(scan), view_of(scan), scan["spacing_m"].number(),
-                            scan["dropped"].counts()});
+                            scan["dropped"].counts(), scan["scan_offset_m"].vector()});
   }
   return record;
 }

@@ -4,6 +4,7 @@
 
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
+#include "mesh_formats.hpp"
 #include "scan_formats.hpp"
 
 namespace drape::io {
@@ -22,22 +23,61 @@ bool no_signature(std::string_view) {
 }
 
 struct ScanFormat {
-  std::string_view extension;
+  ScanFormatFacts facts;
   bool (*recognises)(std::string_view bytes);
   ScanReader read;
 };
 
-// Content counts before the extension: the first that recognises the bytes, else the one of the extension.
-constexpr std::array<ScanFormat, 8> formats{{
-    {"ply", looks_like_ply, read_ply_scan},
-    {"pcd", looks_like_pcd, read_pcd_scan},
-    {"xyz", no_signature, read_xyz_scan},
-    {"txt", no_signature, read_xyz_scan},
-    {"csv", no_signature, read_xyz_scan},
-    {"asc", no_signature, read_xyz_scan},
-    {"xyzn", no_signature, read_xyz_scan},
-    {"xyzrgb", no_signature, read_xyz_scan},
+// The one table of scan formats. Content counts before the extension: the first that recognises the bytes,
+// else the one of the extension.
+constexpr std::array<ScanFormat, 11> formats{{
+    {{"PLY", "ply", "ASCII, binary of both byte orders; any further elements and properties are stepped over",
+      "normals, colour, intensity, confidence, Stanford range_grid, camera position", true},
+     looks_like_ply,
+     read_ply_scan},
+    {{"PCD", "pcd", "ascii, binary, binary_compressed",
+      "normals, colour, intensity, grid (organised), viewpoint", true},
+     looks_like_pcd,
+     read_pcd_scan},
+    {{"E57", "e57", "Cartesian and spherical; float, scaled and plain integers; checksums are checked",
+      "normals, colour, intensity, grid, pose of each scan; photos come out as photos/NNN.png", false},
+     looks_like_e57,
+     read_e57_scan},
+    {{"LAS", "las laz", "1.0 to 1.4, point formats 0 to 10; LAZ is refused with the name of a converter",
+      "colour, intensity", false},
+     looks_like_las,
+     read_las_scan},
+    {{"PTX", "ptx", "any number of scans in a file",
+      "normals, colour, intensity, grid, pose, scanner position", false},
+     no_signature,
+     read_ptx_scan},
+    {{"text", "xyz txt csv asc pts xyzn xyzrgb",
+      "separator, decimal comma, header and columns are found, or columns stated by input.columns; PTS",
+      "normals, colour, intensity, confidence", true},
+     no_signature,
+     read_xyz_scan},
+    {{"3DTK", "3d",
+      ".3d with its .frames or .pose beside it; turned from left-handed to right-handed with z up",
+      "colour, reflectance, pose, scanner position", false},
+     no_signature,
+     read_3dtk_scan},
+    {{"depth picture", "png tif tiff", "16-bit or float, with input.depth", "grid, camera position", false},
+     no_signature,
+     read_depth_scan},
+    {{"OBJ", "obj", "the vertices", "normals, colour", false}, no_signature, read_mesh_scan},
+    {{"STL", "stl", "the corners, once each", "", false}, no_signature, read_mesh_scan},
+    {{"OFF", "off", "the vertices", "normals, colour", false}, looks_like_off, read_mesh_scan},
 }};
+
+bool has_extension(const ScanFormatFacts& facts, std::string_view ending) {
+  std::string_view rest = facts.extensions;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find(' ');
+    if (rest.substr(0, end) == ending) return true;
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  }
+  return false;
+}
 
 const ScanFormat& format_of(const std::filesystem::path& file, std::string_view bytes) {
   for (const ScanFormat& format : formats)
@@ -45,8 +85,8 @@ const ScanFormat& format_of(const std::filesystem::path& file, std::string_view 
   const std::string ending = extension(file);
   std::string known;
   for (const ScanFormat& format : formats) {
-    if (format.extension == ending) return format;
-    known += (known.empty() ? "" : ", ") + std::string(format.extension);
+    if (has_extension(format.facts, ending)) return format;
+    known += (known.empty() ? "" : " ") + std::string(format.facts.extensions);
   }
   throw input_error("{}: is no scan format that can be read ({})", file.string(), known);
 }
@@ -79,10 +119,22 @@ RangeScan without_bad_points(RangeScan scan) {
   return scan;
 }
 
-std::vector<RangeScan> read_scans(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file);
+std::vector<ScanFormatFacts> scan_format_facts() {
+  std::vector<ScanFormatFacts> facts;
+  for (const ScanFormat& format : formats) facts.push_back(format.facts);
+  return facts;
+}
+
+ScanFormatFacts scan_format(const std::filesystem::path& file) {
+  const FileBytes bytes(file);
+  return format_of(file, bytes.view()).facts;
+}
+
+std::vector<RangeScan> parse_scans(const std::filesystem::path& file, std::string_view bytes,
+                                   const ScanReadOptions& options) {
   if (bytes.empty()) throw input_error("{}: is empty", file.string());
-  std::vector<RangeScan> scans = format_of(file, bytes).read(file.string(), bytes);
+  const std::string name = file.string();
+  std::vector<RangeScan> scans = format_of(file, bytes).read({name, bytes, options});
   std::size_t points = 0;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     scans[i] = without_bad_points(std::move(scans[i]));
@@ -92,6 +144,10 @@ std::vector<RangeScan> read_scans(const std::filesystem::path& file) {
   }
   if (points == 0) throw input_error("{}: holds no point", file.string());
   return scans;
+}
+
+std::vector<RangeScan> read_scans(const std::filesystem::path& file, const ScanReadOptions& options) {
+  return parse_scans(file, FileBytes(file).view(), options);
 }
 
 }  // namespace drape::io

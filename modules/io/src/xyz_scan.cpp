@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "attribute_scale.hpp"
 #include "drape/base/log.hpp"
 #include "drape/base/numbers.hpp"
+#include "scan_builder.hpp"
 #include "scan_formats.hpp"
 #include "text_lines.hpp"
 
@@ -118,9 +118,9 @@ Role role_named(std::string_view word) {
 }
 
 /// The rows of the sample as numbers (0 where a column is none), to guess columns by.
-using Sample = std::vector<std::vector<double>>;
+using Rows = std::vector<std::vector<double>>;
 
-bool are_colors(const Sample& sample, std::size_t column) {
+bool are_colors(const Rows& sample, std::size_t column) {
   bool beyond_one = false;
   for (const auto& row : sample)
     for (std::size_t k = column; k < column + 3; ++k) {
@@ -130,14 +130,14 @@ bool are_colors(const Sample& sample, std::size_t column) {
   return beyond_one;
 }
 
-bool are_normals(const Sample& sample, std::size_t column) {
+bool are_normals(const Rows& sample, std::size_t column) {
   return std::all_of(sample.begin(), sample.end(), [&](const std::vector<double>& row) {
     const double length = Eigen::Vector3d(row[column], row[column + 1], row[column + 2]).norm();
     return length == 0 || std::abs(length - 1) < 0.02;
   });
 }
 
-std::vector<Role> roles_by_value(const Sample& sample) {
+std::vector<Role> roles_by_value(const Rows& sample) {
   const std::size_t columns = sample.front().size();
   std::vector<Role> roles(columns, Role::other);
   roles[0] = Role::x;
@@ -169,6 +169,51 @@ std::vector<Role> roles_by_value(const Sample& sample) {
   return roles;
 }
 
+/// Where the values of a row go.
+class RowPlan {
+ public:
+  explicit RowPlan(const std::vector<Role>& roles) : roles_(roles) {
+    const auto all = [&](std::initializer_list<Role> wanted) {
+      return std::all_of(wanted.begin(), wanted.end(), [&](Role role) {
+        return std::find(roles.begin(), roles.end(), role) != roles.end();
+      });
+    };
+    fields.normals = all({Role::nx, Role::ny, Role::nz});
+    fields.colors = all({Role::red, Role::green, Role::blue});
+    fields.intensities = all({Role::intensity});
+    fields.confidences = all({Role::confidence});
+  }
+
+  [[nodiscard]] double* target(Sample& sample, std::size_t column) const {
+    const auto offset = [&](Role first) {
+      return static_cast<Eigen::Index>(roles_[column]) - static_cast<Eigen::Index>(first);
+    };
+    switch (roles_[column]) {
+      case Role::x:
+      case Role::y:
+      case Role::z:
+        return &sample.position[offset(Role::x)];
+      case Role::nx:
+      case Role::ny:
+      case Role::nz:
+        return &sample.normal[offset(Role::nx)];
+      case Role::red:
+      case Role::green:
+      case Role::blue:
+        return &sample.color[offset(Role::red)];
+      case Role::intensity:
+        return &sample.intensity;
+      default:
+        return &sample.confidence;
+    }
+  }
+
+  SampleFields fields;
+
+ private:
+  const std::vector<Role>& roles_;
+};
+
 std::string description(const Layout& layout) {
   static constexpr std::array<std::string_view, 12> names{
       "-", "x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "intensity", "confidence"};
@@ -183,14 +228,16 @@ std::string description(const Layout& layout) {
 
 class XyzReader {
  public:
-  XyzReader(const std::string& file, std::string_view bytes)
-      : file_(file), bytes_(bytes.starts_with("\xEF\xBB\xBF") ? bytes.substr(3) : bytes) {}
+  explicit XyzReader(const ScanSource& source)
+      : file_(source.file),
+        bytes_(source.bytes.starts_with("\xEF\xBB\xBF") ? source.bytes.substr(3) : source.bytes),
+        options_(source.options) {}
 
-  RangeScan read() {
+  std::vector<RangeScan> read() {
     guess();
     log::info("{}: read as text, {}", file_, description(layout_));
     read_rows();
-    return scan();
+    return std::move(scans_);
   }
 
  private:
@@ -211,7 +258,10 @@ class XyzReader {
     layout_ = *layout;
     layout_.header_lines = lines.number() - 1;
     const std::size_t columns = split(lines.line(), layout_.separator).size();
-    if (!name_columns(names, columns)) layout_.roles = roles_by_value(sample(lines, columns));
+    if (!options_.columns.empty())
+      state_columns(lines.number(), columns);
+    else if (!name_columns(names, columns))
+      layout_.roles = roles_by_value(sample(lines, columns));
   }
 
   /// A line with one whole number before the points says how many there are.
@@ -241,8 +291,20 @@ class XyzReader {
     return false;
   }
 
-  Sample sample(TextLines lines, std::size_t columns) const {
-    Sample sample;
+  /// By `input.columns`.
+  void state_columns(std::size_t line, std::size_t columns) {
+    if (options_.columns.size() != columns)
+      throw line_error(file_, line, "has {} columns, but input.columns names {}", columns,
+                       options_.columns.size());
+    for (const std::string& name : options_.columns) layout_.roles.push_back(role_named(name));
+    layout_.named = true;
+    for (const Role role : {Role::x, Role::y, Role::z})
+      if (std::count(layout_.roles.begin(), layout_.roles.end(), role) != 1)
+        throw line_error(file_, line, "input.columns must name x, y and z once each");
+  }
+
+  Rows sample(TextLines lines, std::size_t columns) const {
+    Rows sample;
     do {
       const auto words = split(lines.line(), layout_.separator);
       if (words.size() != columns) continue;  // told when the rows are read
@@ -255,11 +317,18 @@ class XyzReader {
   }
 
   void read_rows() {
-    columns_.resize(layout_.roles.size());
     TextLines lines(bytes_);
+    RowPlan plan(layout_.roles);
+    ScanBuilder builder(file_, plan.fields, options_.most_points);
     while (lines.next_filled()) {
       if (lines.number() <= layout_.header_lines || is_comment(lines.line())) continue;
       auto words = split(lines.line(), layout_.separator);
+      if (claimed_ > 0 && words.size() == 1 && layout_.roles.size() > 1) {  // the count of a further scan
+        finish(builder);
+        builder = ScanBuilder(file_, plan.fields, options_.most_points);
+        read_count(lines.line());
+        continue;
+      }
       // An empty last column looks like a separator at the end of the line.
       if (layout_.separator != ' ' && words.size() + 1 == layout_.roles.size() &&
           lines.line().ends_with(layout_.separator))
@@ -267,56 +336,40 @@ class XyzReader {
       if (words.size() != layout_.roles.size())
         throw line_error(file_, lines.number(), "has {} columns, but the first point has {}", words.size(),
                          layout_.roles.size());
+      Sample sample;
       for (std::size_t k = 0; k < words.size(); ++k) {
         if (layout_.roles[k] == Role::other) continue;
         const auto value = value_of(words[k], layout_.decimal_comma);
         if (!value) throw line_error(file_, lines.number(), "{} is no number", shown(words[k]));
-        columns_[k].push_back(*value);
+        *plan.target(sample, k) = *value;
       }
+      ++rows_;
+      builder.add(sample);
     }
     if (!lines.ended()) log::warn("{}: the last line has no line end: the file may be truncated", file_);
-    const auto points = static_cast<std::int64_t>(column(Role::x)->size());
-    if (claimed_ > 0 && claimed_ != points)
-      log::warn("{}: claims {} points at its top, but holds {}", file_, claimed_, points);
+    finish(builder);
   }
 
-  const std::vector<double>* column(Role role) const {
-    for (std::size_t k = 0; k < layout_.roles.size(); ++k)
-      if (layout_.roles[k] == role) return &columns_[k];
-    return nullptr;
-  }
-
-  RangeScan scan() const {
-    RangeScan scan;
-    const auto triples = [&](Role first, auto add) {
-      const auto* a = column(first);
-      const auto* b = column(static_cast<Role>(static_cast<int>(first) + 1));
-      const auto* c = column(static_cast<Role>(static_cast<int>(first) + 2));
-      if (a == nullptr || b == nullptr || c == nullptr) return;
-      for (std::size_t i = 0; i < a->size(); ++i) add(Eigen::Vector3d((*a)[i], (*b)[i], (*c)[i]));
-    };
-    triples(Role::x, [&](const Eigen::Vector3d& p) { scan.cloud.positions.push_back(p); });
-    std::vector<Eigen::Vector3d> normals, colors;
-    triples(Role::nx, [&](const Eigen::Vector3d& n) { normals.push_back(n); });
-    triples(Role::red, [&](const Eigen::Vector3d& c) { colors.push_back(c); });
-    scan.cloud.normals = unit_normals(normals);
-    scan.cloud.colors = scaled_colors(colors);
-    if (const auto* values = column(Role::intensity)) scan.cloud.intensities = scaled_intensities(*values);
-    if (const auto* values = column(Role::confidence)) scan.cloud.confidences = clamped_confidences(*values);
-    return scan;
+  void finish(ScanBuilder& builder) {
+    if (claimed_ > 0 && claimed_ != rows_)
+      log::warn("{}: claims {} points at its top, but holds {}", file_, claimed_, rows_);
+    rows_ = 0;
+    scans_.push_back(builder.finish());
   }
 
   const std::string& file_;
   std::string_view bytes_;
+  const ScanReadOptions& options_;
   Layout layout_;
   std::int64_t claimed_ = 0;
-  std::vector<std::vector<double>> columns_;
+  std::int64_t rows_ = 0;
+  std::vector<RangeScan> scans_;
 };
 
 }  // namespace
 
-std::vector<RangeScan> read_xyz_scan(const std::string& file, std::string_view bytes) {
-  return {XyzReader(file, bytes).read()};
+std::vector<RangeScan> read_xyz_scan(const ScanSource& source) {
+  return XyzReader(source).read();
 }
 
 }  // namespace drape::io

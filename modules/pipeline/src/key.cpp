@@ -54,10 +54,27 @@ void add_photo_part(Parts& parts, const std::string& part, const PhotoInput& pho
   }
 }
 
+void add_scan_part(Parts& parts, const Input& input) {
+  for (std::size_t i = 0; i < input.scans.size(); ++i) {
+    const ScanInput& scan = input.scans[i];
+    const std::string name = fmt::format("input.scans[{}]", i);
+    parts.add_file(name, scan.file);
+    if (scan.metres_per_unit) parts.add(name + ".units", OptionValue(*scan.metres_per_unit));
+    if (scan.world_from_scan) parts.add_numbers(name + ".transform", *scan.world_from_scan);
+  }
+  for (std::size_t i = 0; i < input.columns.size(); ++i)
+    parts.add(fmt::format("input.columns[{}]", i), input.columns[i]);
+  if (input.depth) {
+    parts.add_numbers("input.depth.focal_px", input.depth->focal_px);
+    if (input.depth->center_px) parts.add_numbers("input.depth.center_px", *input.depth->center_px);
+    parts.add("input.depth.values_per_unit", OptionValue(input.depth->values_per_unit));
+    parts.add("input.depth.depth", std::string(input.depth->along_ray ? "range" : "z"));
+  }
+  parts.add("input.max_points_per_scan", OptionValue(std::int64_t{input.max_points_per_scan}));
+}
+
 void add_input_part(Parts& parts, const std::string& part, const Input& input) {
-  if (part == "scans")
-    for (std::size_t i = 0; i < input.scans.size(); ++i)
-      parts.add_file(fmt::format("input.scans[{}]", i), input.scans[i]);
+  if (part == "scans") add_scan_part(parts, input);
   if (part == "poses") parts.add_file("input.poses", input.poses);
   if (part == "mesh") parts.add_file("input.mesh", input.mesh);
   if (part == "cameras") parts.add_file("input.cameras", input.cameras);

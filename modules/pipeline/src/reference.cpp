@@ -81,6 +81,8 @@ std::string reference_page(std::span<const Stage> table) {
       "## Top level\n\n";
   page += key_table("", top_level_keys());
   page += "## `input`\n\n" + key_table("", input_keys());
+  page += "Each of `scans`, where it is no plain name:\n\n" + key_table("", scan_keys());
+  page += "`depth`:\n\n" + key_table("", depth_keys());
   page += "Each of `photos`:\n\n" + key_table("", photo_keys());
   page += "A photo's `camera`:\n\n" + key_table("", photo_camera_keys());
   for (const Stage& stage : table) page += stage_section(stage);

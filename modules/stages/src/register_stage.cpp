@@ -4,7 +4,6 @@
 #include <map>
 
 #include "drape/base/error.hpp"
-#include "drape/base/files.hpp"
 #include "drape/base/log.hpp"
 #include "drape/io/records.hpp"
 #include "drape/io/scan_files.hpp"
@@ -17,28 +16,32 @@ namespace {
 
 // A pose of the input's units and frame, in the workspace's: x_world = R x_scan + t on both sides scaled and
 // shifted.
-Rigid3 in_workspace(const Rigid3& pose, const io::WorkspaceFrame& frame) {
+Rigid3 in_workspace(const Rigid3& pose, const io::WorkspaceFrame& frame,
+                    const Eigen::Vector3d& scan_offset_m) {
   Rigid3 moved = pose;
-  moved.translation() = pose.translation() * frame.metres_per_input_unit +
-                        pose.linear() * frame.world_offset_m - frame.world_offset_m;
+  moved.translation() =
+      pose.translation() * frame.metres_per_input_unit + pose.linear() * scan_offset_m - frame.world_offset_m;
   return moved;
 }
 
-// Poses by the file of poses where it names the scan, else those that the scan files themselves state.
+// Poses as the configuration states them for a scan, else by the file of poses where it names the scan, else
+// those that the scan files themselves state.
 std::vector<std::optional<Rigid3>> given_poses(const std::vector<RangeScan>& scans,
-                                               const io::WorkspaceFrame& frame,
-                                               const std::filesystem::path& file) {
+                                               const io::ScansRecord& record, const pipeline::Input& input) {
+  const std::filesystem::path& file = input.poses;
   std::map<std::string, Rigid3> named;
-  if (!file.empty()) {
-    if (extension(file) != "conf")
-      throw input_error("{}: poses are read from Stanford .conf files only", file.string());
-    named = io::read_stanford_conf(file);
-  }
+  if (!file.empty()) named = io::read_scan_poses(file);
   std::vector<std::optional<Rigid3>> poses;
-  for (const RangeScan& scan : scans) {
+  const auto stated = [&](const RangeScan& scan) {
+    return std::any_of(input.scans.begin(), input.scans.end(), [&](const pipeline::ScanInput& known) {
+      return known.world_from_scan && known.file.filename() == scan.file;
+    });
+  };
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const RangeScan& scan = scans[i];
     const auto found = named.find(scan.file);
-    if (found != named.end())
-      poses.emplace_back(in_workspace(found->second, frame));
+    if (found != named.end() && !stated(scan))
+      poses.emplace_back(in_workspace(found->second, record.frame, record.scans[i].scan_offset_m));
     else
       poses.push_back(scan.world_from_scan);
   }
@@ -68,14 +71,14 @@ void write_records(const std::vector<RangeScan>& scans, const io::WorkspaceFrame
 
 void run(const registration::RegisterOptions& options, pipeline::StageRun& run) {
   const std::vector<RangeScan> scans = ingested_scans(run);
-  const io::WorkspaceFrame frame = io::read_scans_record(run.artifact("ingest", "scans.json")).frame;
-  const auto given = given_poses(scans, frame, run.input().poses);
+  const io::ScansRecord record = io::read_scans_record(run.artifact("ingest", "scans.json"));
+  const auto given = given_poses(scans, record, run.input());
   const registration::Registration result =
       registration::register_scans(scans, given, options, run.progress());
   const auto placed = std::count_if(result.scans.begin(), result.scans.end(),
                                     [](const registration::PlacedScan& scan) { return scan.placed; });
   if (placed == 0) throw input_error("no scan could be placed: none has points");
-  write_records(scans, frame, result, run);
+  write_records(scans, record.frame, result, run);
   double worst_rms = 0;
   for (const registration::PlacedScan& scan : result.scans) worst_rms = std::max(worst_rms, scan.rms_m);
   run.metric("scans_placed", static_cast<double>(placed));

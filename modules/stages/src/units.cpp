@@ -15,6 +15,13 @@ UnitGuess guess_units(const BoundingBox& box) {
   return {"m", 1.0, fmt::format("a diagonal of {:.4g} is plausible in metres", diagonal)};
 }
 
+Eigen::Vector3d far_offset(const BoundingBox& box, double metres_per_unit) {
+  if (box.isEmpty()) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d center_m = box.center() * metres_per_unit;
+  const bool far = center_m.norm() > 100 && center_m.norm() > 1000 * box.diagonal().norm() * metres_per_unit;
+  return far ? Eigen::Vector3d(center_m.array().round()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
 io::WorkspaceFrame workspace_frame(const BoundingBox& box, pipeline::StageRun& run) {
   io::WorkspaceFrame frame;
   if (const auto stated = pipeline::metres_per_unit(run.input().units)) {
@@ -25,11 +32,7 @@ io::WorkspaceFrame workspace_frame(const BoundingBox& box, pipeline::StageRun& r
     log::warn("input.units is not set; taken as {}: {}", guess.name, guess.reason);
     run.needs_review(fmt::format("the units were guessed as {}; set input.units", guess.name));
   }
-  if (box.isEmpty()) return frame;
-  const Eigen::Vector3d center_m = box.center() * frame.metres_per_input_unit;
-  const double diagonal_m = box.diagonal().norm() * frame.metres_per_input_unit;
-  if (center_m.norm() > 100 && center_m.norm() > 1000 * diagonal_m)
-    frame.world_offset_m = center_m.array().round().matrix();
+  frame.world_offset_m = far_offset(box, frame.metres_per_input_unit);
   return frame;
 }
 

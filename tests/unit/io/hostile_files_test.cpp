@@ -1,6 +1,7 @@
 // Damaged files of every scan and mesh format: each is read whole or refused, never half.
 #include <gtest/gtest.h>
 
+#include <clocale>
 #include <functional>
 
 #include "drape/base/files.hpp"
@@ -10,6 +11,7 @@
 #include "drape/io/model_files.hpp"
 #include "drape/io/scan_files.hpp"
 #include "picture_bytes.hpp"
+#include "scan_bytes.hpp"
 #include "support.hpp"
 
 namespace drape {
@@ -71,6 +73,16 @@ RangeScan small_scan() {
   scan.view = {ScanView::Kind::origin, {0, 0, 9}};
   scan.world_from_scan = Rigid3::Identity();
   return scan;
+}
+
+std::vector<Sample> samples();
+
+/// And those that only scanners write.
+std::vector<Sample> all_samples() {
+  std::vector<Sample> all = samples();
+  for (const test::ScanFile& file : test::scanner_files())
+    all.push_back({file.name, file.bytes, scan_yield, file.open_ended});
+  return all;
 }
 
 std::vector<Sample> samples() {
@@ -151,7 +163,7 @@ class HostileFiles : public testing::Test {
 };
 
 TEST_F(HostileFiles, TruncatedAtEveryByte) {
-  for (const Sample& sample : samples()) {
+  for (const Sample& sample : all_samples()) {
     const auto whole = yield_of(sample, sample.bytes);
     ASSERT_TRUE(whole) << sample.name;
     EXPECT_GT(whole->points, 0U) << sample.name;
@@ -171,7 +183,7 @@ TEST_F(HostileFiles, TruncatedAtEveryByte) {
 
 TEST_F(HostileFiles, ChangedAtRandom) {
   Rng rng(11);
-  for (const Sample& sample : samples())
+  for (const Sample& sample : all_samples())
     for (int i = 0; i < 400; ++i) {
       std::string bytes = sample.bytes;
       const std::uint64_t changes = 1 + rng.below(4);
@@ -198,8 +210,18 @@ TEST_F(HostileFiles, ChangedAtRandom) {
     }
 }
 
+TEST_F(HostileFiles, AnotherLocaleChangesNothing) {
+  // A decimal comma in the C locale is what makes readers by scanf and strtod lose every fraction.
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  const Eigen::Vector3d half = io::parse_scans("a.xyz", "0.5 1.5 2.5\n1 2 3.25\n").at(0).cloud.positions[0];
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "needs the locale de_DE.UTF-8";
+  EXPECT_EQ(io::parse_scans("a.xyz", "0.5 1.5 2.5\n1 2 3.25\n").at(0).cloud.positions[0], half);
+  for (const Sample& sample : all_samples()) EXPECT_TRUE(yield_of(sample, sample.bytes)) << sample.name;
+  std::setlocale(LC_ALL, before.c_str());
+}
+
 TEST_F(HostileFiles, NothingAtAll) {
-  for (const Sample& sample : samples()) {
+  for (const Sample& sample : all_samples()) {
     EXPECT_FALSE(yield_of(sample, "")) << sample.name;
     EXPECT_FALSE(yield_of(sample, std::string(300, '\0'))) << sample.name;
     EXPECT_FALSE(yield_of(sample, "\n\n\n")) << sample.name;

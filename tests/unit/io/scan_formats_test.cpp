@@ -286,13 +286,13 @@ TEST(StanfordConf, TheTransposeOfTheUsualMatrix) {
       folder / "a.conf",
       fmt::format("camera 0 0 0  0 0 0 1\n\nbmesh sub/a.ply 1 2 3 0 0 {} {}\nbmesh b.ply 0 0 0 0 0 0 1\n", h,
                   h));
-  const auto poses = io::read_stanford_conf(folder / "a.conf");
+  const auto poses = io::read_scan_poses(folder / "a.conf");
   ASSERT_EQ(poses.size(), 2U);
   EXPECT_LT((poses.at("a.ply") * Eigen::Vector3d(0, 1, 0) - Eigen::Vector3d(2, 2, 3)).norm(), 1e-12);
   EXPECT_EQ(poses.at("b.ply").matrix(), Rigid3::Identity().matrix());
   const auto problem = [&](const std::string& text) {
     write_file(folder / "b.conf", text);
-    return error_message(ErrorCode::input, [&] { (void)io::read_stanford_conf(folder / "b.conf"); });
+    return error_message(ErrorCode::input, [&] { (void)io::read_scan_poses(folder / "b.conf"); });
   };
   EXPECT_NE(problem("bmesh a.ply 1 2 3 0 0 0\n").find("b.conf:1: "), std::string::npos);
   EXPECT_NE(problem("bmesh a.ply 1 2 3 0 0 0 0\n").find("b.conf:1: the quaternion"), std::string::npos);
@@ -308,7 +308,7 @@ TEST(StanfordConf, TheTransposeOfTheUsualMatrix) {
 TEST(StanfordConf, BunnyScansMeetAndWereSeenDownTheirZAxis) {
   if (!test::have_data("scans/bunny") || !test::have_data("meshes/bun_zipper.ply"))
     GTEST_SKIP() << "needs scans/bunny and meshes/bun_zipper.ply of DRAPE_TEST_DATA";
-  const auto poses = io::read_stanford_conf(test::data("scans/bunny/bun.conf"));
+  const auto poses = io::read_scan_poses(test::data("scans/bunny/bun.conf"));
   EXPECT_EQ(poses.size(), 10U);
   const TriangleMesh zipper = io::read_mesh(test::data("meshes/bun_zipper.ply"));
   const std::vector<Eigen::Vector3f> normals = vertex_normals(zipper);

@@ -84,7 +84,7 @@ struct Bunny {
 
 Bunny raw_bunny() {
   Bunny bunny;
-  for (const auto& [file, pose] : io::read_stanford_conf(test::data("scans/bunny/bun.conf"))) {
+  for (const auto& [file, pose] : io::read_scan_poses(test::data("scans/bunny/bun.conf"))) {
     for (const RangeScan& scan : io::read_scans(test::data("scans/bunny/" + file))) {
       const RangeScan clean = ingest::clean_scan(scan, {}, {}).scan;
       for (std::size_t i = 0; i < clean.cloud.size(); ++i) {

@@ -14,7 +14,7 @@ TEST(RealBunny, ItsScansLieOnItsMesh) {
   for (const char* needed : {"scans/bunny", "meshes/bun_zipper.ply"})
     if (!test::have_data(needed)) GTEST_SKIP() << "needs " << needed << " of DRAPE_TEST_DATA";
   const TriangleMesh mesh = io::read_mesh(test::data("meshes/bun_zipper.ply"));
-  const auto poses = io::read_stanford_conf(test::data("scans/bunny/bun.conf"));
+  const auto poses = io::read_scan_poses(test::data("scans/bunny/bun.conf"));
   for (const std::string name : {"bun000.ply", "bun090.ply", "bun270.ply"}) {
     const RangeScan scan = io::read_scans(test::data("scans/bunny/" + name)).front();
     std::vector<Eigen::Vector3d> points;

@@ -54,6 +54,43 @@ TEST(Config, MissingFilesAreInputErrors) {
             std::string::npos);
 }
 
+TEST(Config, WhatIsKnownOfAScan) {
+  const test::ToyProject project;
+  for (const char* name : {"b.scan", "a.scan", "c.png"}) write_file(project / name, "x");
+  write_file(project / "toy.yaml",
+             "input:\n  units: m\n  columns: [x, y, '-', z]\n  max_points_per_scan: 1000\n"
+             "  depth: {focal_px: 525, values_per_unit: 1000, depth: range}\n  scans:\n    - c.png\n"
+             "    - {file: '?.scan', units: mm, pose: [1, 2, 3, 0.5, 0.5, 0.5, 0.5]}\n");
+  const Input input = project.load().input;
+  ASSERT_EQ(input.scans.size(), 3U);
+  EXPECT_FALSE(input.scans[0].world_from_scan);
+  EXPECT_EQ(input.scans[2].file.filename(), "b.scan");
+  EXPECT_EQ(input.scans[2].metres_per_unit, 0.001);
+  // A third of a turn about (1, 1, 1) takes x to y.
+  EXPECT_EQ(*input.scans[2].world_from_scan,
+            (std::array<double, 16>{0, 0, 1, 1, 1, 0, 0, 2, 0, 1, 0, 3, 0, 0, 0, 1}));
+  EXPECT_EQ(input.columns, (std::vector<std::string>{"x", "y", "-", "z"}));
+  EXPECT_EQ(input.max_points_per_scan, 1000);
+  EXPECT_TRUE(input.depth->along_ray);
+  EXPECT_EQ(input.depth->focal_px[1], 525);
+}
+
+TEST(Config, WhatIsWrongWithAScan) {
+  const test::ToyProject project;
+  write_file(project / "a.scan", "x");
+  const auto message = [&](const std::string& scan) {
+    write_file(project / "toy.yaml", "input:\n  scans:\n    - " + scan + "\n");
+    return problem(project);
+  };
+  EXPECT_NE(message("{file: a.scan, units: mm}").find("needs input.units as well"), std::string::npos);
+  EXPECT_NE(message("{file: a.scan, pose: [1, 2, 3, 0, 0, 0, 0]}").find("is no rigid motion"),
+            std::string::npos);
+  EXPECT_NE(
+      message("{file: a.scan, transform: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0]}").find("is no rigid motion"),
+      std::string::npos);
+  EXPECT_NE(message("{fiel: a.scan}").find("did you mean file?"), std::string::npos);
+}
+
 TEST(Config, InputSection) {
   const test::ToyProject project;
   for (const char* name : {"b.scan", "a.scan", "c.jpg", "m.png"}) write_file(project / name, "x");
@@ -64,7 +101,7 @@ TEST(Config, InputSection) {
              "    - c.jpg\n");
   const Config config = project.load();
   ASSERT_EQ(config.input.scans.size(), 2U);
-  EXPECT_EQ(config.input.scans[0].filename(), "a.scan");
+  EXPECT_EQ(config.input.scans[0].file.filename(), "a.scan");
   EXPECT_EQ(config.input.units, Units::millimetres);
   EXPECT_EQ(config.input.up, 'y');
   ASSERT_EQ(config.input.photos.size(), 2U);

@@ -12,7 +12,7 @@ namespace {
 TEST(RealScans, TheBunnysPosesAreRefinedAndFoundAgain) {
   if (!test::have_data("scans/bunny")) GTEST_SKIP() << "needs scans/bunny of DRAPE_TEST_DATA";
   test::ScannedShape bunny;
-  for (const auto& [name, pose] : io::read_stanford_conf(test::data("scans/bunny/bun.conf"))) {
+  for (const auto& [name, pose] : io::read_scan_poses(test::data("scans/bunny/bun.conf"))) {
     bunny.scans.push_back(
         ingest::clean_scan(io::read_scans(test::data("scans/bunny/" + name))[0], {}, {}).scan);
     bunny.world_from_scan.push_back(pose);

@@ -74,7 +74,7 @@ TEST_P(EverySample, PhotosShowTheTrueMeshWhereTheStencilIs) {
 TEST_P(EverySample, GivenPosesAreNearTheTrueOnes) {
   const fs::path folder = test::source("sample_scans/" + GetParam());
   const io::PosesRecord truth = io::read_poses(folder / "truth.json");
-  const auto given = io::read_stanford_conf(folder / "scans" / (GetParam() + ".conf"));
+  const auto given = io::read_scan_poses(folder / "scans" / (GetParam() + ".conf"));
   ASSERT_EQ(given.size(), truth.scans.size());
   for (const io::PoseRecord& pose : truth.scans) {
     Rigid3 world_from_scan = given.at(pose.file);

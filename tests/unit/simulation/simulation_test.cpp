@@ -99,7 +99,7 @@ TEST(Simulate, ConfHasThePosesWithTheErrorsAskedFor) {
   spec.pose_error_deg = 0.5;
   spec.pose_error_m = 0.002;
   simulate(spec, scratch.path());
-  const auto measured = io::read_stanford_conf(scratch / "scans/teapot.conf");
+  const auto measured = io::read_scan_poses(scratch / "scans/teapot.conf");
   const io::PosesRecord truth = io::read_poses(scratch / "truth.json");
   const Vector3d center = 0.001 * bounding_box(io::read_mesh(scratch / "truth_mesh.ply").vertices).center();
   ASSERT_EQ(measured.size(), truth.scans.size());

@@ -39,6 +39,8 @@ struct ScanRecord {
   ScanView view;
   double spacing_m = 0;
   std::map<std::string, std::size_t> dropped;  // filter -> points
+  // Taken off the scan's own coordinates in metres; the world's are shifted by the frame's offset.
+  Eigen::Vector3d scan_offset_m = Eigen::Vector3d::Zero();
 };
 struct ScansRecord {
   WorkspaceFrame frame;

@@ -49,6 +49,8 @@ struct InputKey {
 };
 [[nodiscard]] const std::vector<InputKey>& input_keys();
 [[nodiscard]] const std::vector<InputKey>& photo_keys();
+[[nodiscard]] const std::vector<InputKey>& scan_keys();
+[[nodiscard]] const std::vector<InputKey>& depth_keys();
 [[nodiscard]] const std::vector<InputKey>& photo_camera_keys();
 [[nodiscard]] const std::vector<InputKey>& top_level_keys();
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,13 +27,31 @@ struct PhotoInput {
 
 enum class Units { guess, metres, centimetres, millimetres, inches, feet };
 
+struct ScanInput {
+  std::filesystem::path file;
+  std::optional<double> metres_per_unit;  // of this file, where it differs from `input.units`
+  std::optional<std::array<double, 16>>
+      world_from_scan;  // row by row, in the input's units; takes the file's place
+};
+
+/// What depth pictures among the scans mean.
+struct DepthInput {
+  std::array<double, 2> focal_px{};
+  std::optional<std::array<double, 2>> center_px;
+  double values_per_unit = 1;
+  bool along_ray = false;
+};
+
 struct Input {
-  std::vector<std::filesystem::path> scans;  // globs expanded, sorted within a glob
-  std::filesystem::path poses;               // empty: none
-  Units units = Units::guess;                // of the scans or the mesh
-  char up = 'z';                             // 'x', 'y' or 'z': the input's axis that points up
-  std::filesystem::path mesh;                // instead of scans; empty: none
-  std::filesystem::path cameras;             // known cameras; empty: none
+  std::vector<ScanInput> scans;      // globs expanded, sorted within a glob
+  std::vector<std::string> columns;  // of scans as text; empty: guessed
+  std::optional<DepthInput> depth;
+  int max_points_per_scan = 50'000'000;  // 0: any number
+  std::filesystem::path poses;           // empty: none
+  Units units = Units::guess;            // of the scans or the mesh
+  char up = 'z';                         // 'x', 'y' or 'z': the input's axis that points up
+  std::filesystem::path mesh;            // instead of scans; empty: none
+  std::filesystem::path cameras;         // known cameras; empty: none
   std::vector<PhotoInput> photos;
 };
 

@@ -19,9 +19,12 @@ struct UnitGuess {
 /// one as millimetres.
 [[nodiscard]] UnitGuess guess_units(const BoundingBox& box);
 
+/// What to take off coordinates (in metres) that fill `box` (in its own units): its centre in whole metres
+/// where that lies over 1000 diagonals and 100 m from the origin, such as map coordinates; else zero.
+[[nodiscard]] Eigen::Vector3d far_offset(const BoundingBox& box, double metres_per_unit);
+
 /// The workspace frame for an input that fills `box` (in its own units). Unstated units are guessed, with a
-/// warning, and make the run `review`. Far from the origin (over 1000 diagonals and 100 m, such as map
-/// coordinates) the offset is the box's centre in whole metres; else it is zero.
+/// warning, and make the run `review`. The offset is far_offset.
 [[nodiscard]] io::WorkspaceFrame workspace_frame(const BoundingBox& box, pipeline::StageRun& run);
 
 }  // namespace drape::stages
