@@ -28,7 +28,8 @@ std::string fields_of(const PointCloud& cloud) {
   return text;
 }
 
-// Median distance to the nearest other point, of the points round the middle one of the file: all of a small scan.
+// Median distance to the nearest other point, of the points round the middle one of the file: all of a small
+// scan.
 double spacing_of(std::vector<Eigen::Vector3d> points) {
   constexpr std::size_t most = 50'000;
   constexpr std::size_t most_asked = 500;
@@ -42,7 +43,8 @@ double spacing_of(std::vector<Eigen::Vector3d> points) {
     points.resize(most);
   }
   const std::size_t asked = std::min(most_asked, points.size());
-  std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(asked), points.end(), nearer);
+  std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(asked), points.end(),
+                    nearer);
   const KdTree tree(points);
   std::vector<double> distances;
   for (std::size_t i = 0; i < asked; ++i)
@@ -53,8 +55,8 @@ double spacing_of(std::vector<Eigen::Vector3d> points) {
 }
 
 bool is_photo(const std::filesystem::path& file) {
-  static constexpr std::array<std::string_view, 10> endings{"jpg", "jpeg", "png", "tif", "tiff",
-                                                           "webp", "bmp", "ppm", "pgm", "pnm"};
+  static constexpr std::array<std::string_view, 10> endings{"jpg",  "jpeg", "png", "tif", "tiff",
+                                                            "webp", "bmp",  "ppm", "pgm", "pnm"};
   return std::find(endings.begin(), endings.end(), extension(file)) != endings.end();
 }
 
@@ -67,13 +69,15 @@ void print_scan(const RangeScan& scan, std::size_t of) {
   fmt::print("  box      {} to {}, diagonal {:.6g}\n", vector_text(box.min()), vector_text(box.max()),
              box.diagonal().norm());
   fmt::print("  spacing  {:.4g}\n", spacing_of(scan.cloud.positions));
-  if (scan.view.kind == ScanView::Kind::origin) fmt::print("  scanner  at {}\n", vector_text(scan.view.vector));
+  if (scan.view.kind == ScanView::Kind::origin)
+    fmt::print("  scanner  at {}\n", vector_text(scan.view.vector));
   if (scan.view.kind == ScanView::Kind::direction)
     fmt::print("  scanner  parallel rays along {}\n", vector_text(scan.view.vector));
   if (scan.world_from_scan) {
     const Eigen::AngleAxisd turn(scan.world_from_scan->linear());
     fmt::print("  pose     moved by {}, turned by {:.4g} degrees about {}\n",
-               vector_text(scan.world_from_scan->translation()), turn.angle() * 180 / M_PI, vector_text(turn.axis()));
+               vector_text(scan.world_from_scan->translation()), turn.angle() * 180 / M_PI,
+               vector_text(turn.axis()));
   }
 }
 

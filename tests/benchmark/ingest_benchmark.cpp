@@ -1,5 +1,6 @@
-// How fast scans are read, and in how much memory: binary PLY and PTX of 0.4 and 4 million points (with an argument,
-// of that many million as well). Each reading happens in a process of its own, whose peak memory is its own.
+// How fast scans are read, and in how much memory: binary PLY and PTX of 0.4 and 4 million points (with an
+// argument, of that many million as well). Each reading happens in a process of its own, whose peak memory is
+// its own.
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -25,8 +26,10 @@ Eigen::Vector3f point(std::size_t i, std::size_t columns) {
 
 void write_ply(const std::filesystem::path& file, std::size_t count) {
   std::FILE* out = std::fopen(file.c_str(), "wb");
-  fmt::print(out, "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
-                  "property float z\nend_header\n", count);
+  fmt::print(out,
+             "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"
+             "property float z\nend_header\n",
+             count);
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3f p = point(i, 2000);
     std::fwrite(p.data(), sizeof(float), 3, out);
@@ -59,7 +62,9 @@ Cost cost_of(const std::function<void()>& work) {
   rusage usage{};
   ::wait4(child, &status, 0, &usage);
   if (status != 0) std::exit(1);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024.0 * static_cast<double>(usage.ru_maxrss)};
 }
 
@@ -75,10 +80,12 @@ void measure(std::size_t count, std::size_t most_points) {
     });
     const double bytes = cost.bytes - nothing.bytes;
     const auto size = static_cast<double>(std::filesystem::file_size(file));
-    fmt::print("{:<4}{:>10} points{:>14} {:8.2f} s  {:6.2f} M points/s  {:6.0f} MB/s  peak {:6.0f} MB  {:5.1f} bytes/point\n",
-               ply ? "PLY" : "PTX", count, most_points == 0 ? "" : fmt::format("keep {:.0e}", double(most_points)),
-               cost.seconds, static_cast<double>(count) / cost.seconds / 1e6, size / cost.seconds / 1e6, bytes / 1e6,
-               bytes / static_cast<double>(count));
+    fmt::print(
+        "{:<4}{:>10} points{:>14} {:8.2f} s  {:6.2f} M points/s  {:6.0f} MB/s  peak {:6.0f} MB  {:5.1f} "
+        "bytes/point\n",
+        ply ? "PLY" : "PTX", count, most_points == 0 ? "" : fmt::format("keep {:.0e}", double(most_points)),
+        cost.seconds, static_cast<double>(count) / cost.seconds / 1e6, size / cost.seconds / 1e6, bytes / 1e6,
+        bytes / static_cast<double>(count));
     std::filesystem::remove(file);
   }
 }

@@ -15,7 +15,8 @@ TEST(FuzzReplay, EveryFileOfTheCorpusIsRead) {
 
 TEST(FuzzReplay, EveryFileAsEveryOtherFormat) {
   for (const test::ScanFile& file : test::scanner_files())
-    for (const test::ScanFile& other : test::scanner_files()) (void)test::read_as_scan(other.name, file.bytes);
+    for (const test::ScanFile& other : test::scanner_files())
+      (void)test::read_as_scan(other.name, file.bytes);
 }
 
 }  // namespace

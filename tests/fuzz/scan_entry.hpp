@@ -11,8 +11,8 @@
 
 namespace drape::test {
 
-/// Reads the bytes as the scan file `name`, whole and thinned. They may be refused as bad input; whatever else happens
-/// (another exception, a crash, no end) is a finding. Returns whether they were read.
+/// Reads the bytes as the scan file `name`, whole and thinned. They may be refused as bad input; whatever
+/// else happens (another exception, a crash, no end) is a finding. Returns whether they were read.
 inline bool read_as_scan(const std::string& name, std::string_view bytes) {
   log::set_console_level(log::Level::warning);
   io::ScanReadOptions options;

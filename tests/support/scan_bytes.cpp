@@ -57,8 +57,8 @@ std::string section_of(const E57Maker::Scan& scan, std::uint64_t begin) {
     packets += std::string("\x01\0", 2) + raw(static_cast<std::uint16_t>(rest.size() + 3), false) + rest;
   }
   const std::string reserved(7, '\0');
-  return "\x01" + reserved + raw(std::uint64_t{32 + packets.size()}, false) + raw(physical(begin + 32), false) +
-         raw(std::uint64_t{0}, false) + packets;
+  return "\x01" + reserved + raw(std::uint64_t{32 + packets.size()}, false) +
+         raw(physical(begin + 32), false) + raw(std::uint64_t{0}, false) + packets;
 }
 
 }  // namespace
@@ -107,9 +107,10 @@ std::string depth_png(int width, int height, const std::vector<std::uint16_t>& v
     rows += '\0';
     for (int x = 0; x < width; ++x) rows += raw(values[static_cast<std::size_t>(y * width + x)], true);
   }
-  const std::string header = raw(static_cast<std::uint32_t>(width), true) + raw(static_cast<std::uint32_t>(height), true) +
-                             std::string("\x10\0\0\0\0", 5);
-  return "\x89PNG\r\n\x1A\n" + png_chunk("IHDR", header) + png_chunk("IDAT", zlib_stored(rows)) + png_chunk("IEND", "");
+  const std::string header = raw(static_cast<std::uint32_t>(width), true) +
+                             raw(static_cast<std::uint32_t>(height), true) + std::string("\x10\0\0\0\0", 5);
+  return "\x89PNG\r\n\x1A\n" + png_chunk("IHDR", header) + png_chunk("IDAT", zlib_stored(rows)) +
+         png_chunk("IEND", "");
 }
 
 std::string E57Maker::bytes() const {
@@ -117,16 +118,30 @@ std::string E57Maker::bytes() const {
   std::string data;
   for (const Scan& scan : scans) {
     const auto records = static_cast<std::int64_t>(scan.fields[0].values.size());
-    data += "<vectorChild type=\"Structure\">" + scan.xml + "<points type=\"CompressedVector\" fileOffset=\"" +
-            std::to_string(physical(logical.size())) + "\" recordCount=\"" +
-            std::to_string(scan.claimed_records >= 0 ? scan.claimed_records : records) +
+    data += "<vectorChild type=\"Structure\">" + scan.xml +
+            "<points type=\"CompressedVector\" fileOffset=\"" + std::to_string(physical(logical.size())) +
+            "\" recordCount=\"" + std::to_string(scan.claimed_records >= 0 ? scan.claimed_records : records) +
             "\"><prototype type=\"Structure\">";
     for (const Field& field : scan.fields) data += field.xml;
     data += "</prototype></points></vectorChild>\n";
     logical += section_of(scan, logical.size());
   }
-  const std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<e57Root type=\"Structure\"><data3D type=\"Vector\">" +
-                          data + "</data3D></e57Root>\n";
+  std::string pictures;
+  if (!photo.empty()) {
+    pictures =
+        "<images2D type=\"Vector\"><vectorChild type=\"Structure\">" + photo_pose +
+        "<pinholeRepresentation type=\"Structure\"><pngImage type=\"Blob\" fileOffset=\"" +
+        std::to_string(physical(logical.size())) + "\" length=\"" + std::to_string(photo.size()) +
+        "\"/><focalLength type=\"Float\">0.03</focalLength><pixelWidth type=\"Float\">0.00001</pixelWidth>"
+        "<pixelHeight type=\"Float\">0.00002</pixelHeight><principalPointX "
+        "type=\"Float\">1.5</principalPointX>"
+        "<principalPointY "
+        "type=\"Float\">1</principalPointY></pinholeRepresentation></vectorChild></images2D>";
+    logical += std::string(8, '\0') + raw(std::uint64_t{16 + photo.size()}, false) + photo;
+  }
+  const std::string xml =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<e57Root type=\"Structure\"><data3D type=\"Vector\">" +
+      data + "</data3D>" + pictures + "</e57Root>\n";
   const std::uint64_t xml_at = physical(logical.size());
   logical += xml;
   while (logical.size() % payload != 0) logical += '\0';
@@ -145,14 +160,18 @@ std::string E57Maker::bytes() const {
 E57Maker::Scan e57_scan_of_all_kinds() {
   E57Maker::Scan scan;
   scan.xml =
-      "<pose type=\"Structure\"><rotation type=\"Structure\"><w type=\"Float\">0.70710678118654757</w><x type=\"Float\"/>"
-      "<y type=\"Float\"/><z type=\"Float\">0.70710678118654757</z></rotation><translation type=\"Structure\">"
+      "<pose type=\"Structure\"><rotation type=\"Structure\"><w type=\"Float\">0.70710678118654757</w><x "
+      "type=\"Float\"/>"
+      "<y type=\"Float\"/><z type=\"Float\">0.70710678118654757</z></rotation><translation "
+      "type=\"Structure\">"
       "<x type=\"Float\">10</x><y type=\"Float\">20</y><z type=\"Float\">30</z></translation></pose>"
       "<intensityLimits type=\"Structure\"><intensityMinimum type=\"Integer\">-100</intensityMinimum>"
       "<intensityMaximum type=\"Integer\">200</intensityMaximum></intensityLimits>";
   scan.fields = {
       {"<cartesianX type=\"Float\"/>", 64, {}},
-      {"<cartesianY type=\"ScaledInteger\" minimum=\"-150\" maximum=\"200\" scale=\"0.001\" offset=\"4\"/>", 9, {}},
+      {"<cartesianY type=\"ScaledInteger\" minimum=\"-150\" maximum=\"200\" scale=\"0.001\" offset=\"4\"/>",
+       9,
+       {}},
       {"<cartesianZ type=\"Float\" precision=\"single\"/>", 32, {}},
       {"<cartesianInvalidState type=\"Integer\" minimum=\"0\" maximum=\"2\"/>", 2, {}},
       {"<rowIndex type=\"Integer\" minimum=\"0\" maximum=\"19\"/>", 5, {}},
@@ -184,9 +203,10 @@ std::vector<ScanFile> scanner_files() {
   // A lattice of 2 x 2 with one gap, and a second scan without colours.
   const std::string header = "10 20 30\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n10 20 30 1\n";
   return {
-      {"points.ptx", "2\n2\n" + header +
-                         "1 2 3 0.5 255 0 0\n0 0 0 0.5 0 0 0\n4 5 6 0.25 0 255 0\n7 8 9 1 0 0 255\n1\n2\n" + header +
-                         "1 2 3\n4 5 6\n"},
+      {"points.ptx",
+       "2\n2\n" + header + "1 2 3 0.5 255 0 0\n0 0 0 0.5 0 0 0\n4 5 6 0.25 0 255 0\n7 8 9 1 0 0 255\n1\n2\n" +
+           header + "1 2 3\n4 5 6\n",
+       true},
       {"points.pts", "2\n1.5 2.5 3.5 -2048 255 0 0\n4.5 5.5 6.5 2047 0 255 0\n", true},
       {"points.las", las_bytes(2, 3)},
       {"points14.las", las_bytes(4, 7)},

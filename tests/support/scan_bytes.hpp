@@ -7,7 +7,8 @@
 
 namespace drape::test {
 
-/// Three points at 500000 + 0.01 k with k = 100, 123456789, 300 for x; intensities 0, 26214, 65535 (of 65535).
+/// Three points at 500000 + 0.01 k with k = 100, 123456789, 300 for x; intensities 0, 26214, 65535 (of
+/// 65535).
 [[nodiscard]] std::string las_bytes(int minor_version, int point_format);
 
 /// A 16-bit grey PNG.
@@ -27,12 +28,14 @@ struct E57Maker {
     std::int64_t claimed_records = -1;  // other than there are
   };
   std::vector<Scan> scans;
+  std::string photo;       // the bytes of a PNG: focal length 3000 and 1500 px, principal point (1.5, 1)
+  std::string photo_pose;  // XML
 
   [[nodiscard]] std::string bytes() const;
 };
 
-/// 300 points on a lattice of 20 rows and 15 columns: x a double, y a scaled integer of 9 bits, z a float; point 7
-/// is marked as invalid; intensity an integer within limits; a pose that turns by 90 degrees about z.
+/// 300 points on a lattice of 20 rows and 15 columns: x a double, y a scaled integer of 9 bits, z a float;
+/// point 7 is marked as invalid; intensity an integer within limits; a pose that turns by 90 degrees about z.
 [[nodiscard]] E57Maker::Scan e57_scan_of_all_kinds();
 
 /// One small whole file of every dialect that drape reads but does not write, by file name.

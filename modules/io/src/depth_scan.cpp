@@ -11,7 +11,8 @@ namespace drape::io {
 
 std::vector<RangeScan> read_depth_scan(const ScanSource& source) {
   if (!source.options.depth)
-    throw input_error("{}: a depth picture needs input.depth: focal_px or K, and depth: z or range", source.file);
+    throw input_error("{}: a depth picture needs input.depth: focal_px or K, and depth: z or range",
+                      source.file);
   const DepthCamera& camera = *source.options.depth;
   (void)read_picture_header(source.file, source.bytes);
   const ImageF depth = decode_depth(source.file, source.bytes);
@@ -23,7 +24,8 @@ std::vector<RangeScan> read_depth_scan(const ScanSource& source) {
     for (int column = 0; column < depth.width(); ++column) {
       const double value = static_cast<double>(depth.at(column, row)) / camera.values_per_unit;
       if (!(value > 0) || !std::isfinite(value)) continue;
-      const Eigen::Vector3d ray((column + 0.5 - cx) / camera.focal_px.x(), (row + 0.5 - cy) / camera.focal_px.y(), 1);
+      const Eigen::Vector3d ray((column + 0.5 - cx) / camera.focal_px.x(),
+                                (row + 0.5 - cy) / camera.focal_px.y(), 1);
       Sample sample;
       sample.position = ray * (camera.along_ray ? value / ray.norm() : value);
       builder.add(sample, row, column);

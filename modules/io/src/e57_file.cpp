@@ -33,19 +33,21 @@ std::uint32_t crc32c(std::string_view bytes) {
 
 E57Pages::E57Pages(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {
   if (bytes.size() < header_bytes || !bytes.starts_with("ASTM-E57"))
-    throw byte_error(file, 0, "is no E57 file: it does not start with ASTM-E57 and a header of {} bytes", header_bytes);
+    throw byte_error(file, 0, "is no E57 file: it does not start with ASTM-E57 and a header of {} bytes",
+                     header_bytes);
   const auto major = load<std::uint32_t>(bytes, 8);
   const auto length = load<std::uint64_t>(bytes, 16);
   xml_physical_ = load<std::uint64_t>(bytes, 24);
   xml_size_ = load<std::uint64_t>(bytes, 32);
   page_size_ = load<std::uint64_t>(bytes, 40);
   if (major != 1) throw byte_error(file, 8, "E57 version {} is not known (1 is)", major);
-  if (page_size_ < 64 || page_size_ > (1U << 20)) throw byte_error(file, 40, "{} is no page size", page_size_);
+  if (page_size_ < 64 || page_size_ > (1U << 20))
+    throw byte_error(file, 40, "{} is no page size", page_size_);
   if (length != bytes.size())
     throw byte_error(file, 16, "the header claims {} bytes, but the file has {}", length, bytes.size());
-  if (length % page_size_ != 0) throw byte_error(file, 16, "{} bytes are no whole pages of {}", length, page_size_);
+  if (length % page_size_ != 0)
+    throw byte_error(file, 16, "{} bytes are no whole pages of {}", length, page_size_);
 }
-
 
 std::uint64_t E57Pages::logical(std::uint64_t physical) const {
   return physical / page_size_ * (page_size_ - checksum_bytes) + physical % page_size_;
@@ -67,15 +69,15 @@ void E57Pages::check(std::uint64_t page) const {
   for (const char byte : whole.substr(page_size_ - checksum_bytes))
     stored = stored << 8 | static_cast<unsigned char>(byte);
   if (crc32c(whole.substr(0, page_size_ - checksum_bytes)) != stored)
-    throw byte_error(file_, page * page_size_, "the checksum of this page of {} bytes is wrong: the file is damaged",
-                     page_size_);
+    throw byte_error(file_, page * page_size_,
+                     "the checksum of this page of {} bytes is wrong: the file is damaged", page_size_);
   checked_ = page;
 }
 
 std::string E57Pages::read(std::uint64_t logical, std::uint64_t count) const {
   if (logical > size() || count > size() - logical)
-    throw byte_error(file_, physical(std::min(logical, size())), "{} bytes should follow, but the file ends before",
-                     count);
+    throw byte_error(file_, physical(std::min(logical, size())),
+                     "{} bytes should follow, but the file ends before", count);
   const std::uint64_t payload = page_size_ - checksum_bytes;
   std::string bytes;
   bytes.reserve(count);
@@ -110,7 +112,8 @@ std::optional<double> e57_number(const std::string& file, pugi::xml_node parent,
   double value = 0;
   if (!text.empty()) {
     const auto number = parse_value(text);
-    if (!number) throw input_error("{}: the XML section says {} = {}, which is no number", file, name, shown(text));
+    if (!number)
+      throw input_error("{}: the XML section says {} = {}, which is no number", file, name, shown(text));
     value = *number;
   }
   if (std::string_view(node.attribute("type").value()) == "ScaledInteger")
@@ -128,13 +131,14 @@ double e57_attribute(const std::string& file, pugi::xml_node node, const char* n
   return *number;
 }
 
-std::int64_t e57_integer(const std::string& file, pugi::xml_node node, const char* name, std::int64_t otherwise) {
+std::int64_t e57_integer(const std::string& file, pugi::xml_node node, const char* name,
+                         std::int64_t otherwise) {
   const pugi::xml_attribute attribute = node.attribute(name);
   if (!attribute) return otherwise;
   const auto number = parse_integer(attribute.value());
   if (!number)
-    throw input_error("{}: the XML section gives {} of {} as {}, which is no whole number", file, name, node.name(),
-                      shown(attribute.value()));
+    throw input_error("{}: the XML section gives {} of {} as {}, which is no whole number", file, name,
+                      node.name(), shown(attribute.value()));
   return *number;
 }
 
@@ -144,7 +148,8 @@ std::string e57_blob(const E57Pages& pages, pugi::xml_node blob) {
   if (length < 0 || offset < 0) throw input_error("{}: a picture without place and length", pages.file());
   const std::uint64_t begin = pages.logical(static_cast<std::uint64_t>(offset));
   const std::string header = pages.read(begin, 16);  // section id 0, 7 reserved, length of the section
-  if (header[0] != 0) throw byte_error(pages.file(), static_cast<std::uint64_t>(offset), "no picture begins here");
+  if (header[0] != 0)
+    throw byte_error(pages.file(), static_cast<std::uint64_t>(offset), "no picture begins here");
   return pages.read(begin + 16, static_cast<std::uint64_t>(length));
 }
 

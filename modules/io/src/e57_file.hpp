@@ -1,4 +1,5 @@
-// The container of an E57 file (ASTM E2807): pages with checksums, and the XML section that describes the binary ones.
+// The container of an E57 file (ASTM E2807): pages with checksums, and the XML section that describes the
+// binary ones.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@
 
 namespace drape::io {
 
-/// The bytes of an E57 without its checksums. "Physical" places count the checksums, "logical" ones do not; a page is
-/// checked whenever something of it is read.
+/// The bytes of an E57 without its checksums. "Physical" places count the checksums, "logical" ones do not; a
+/// page is checked whenever something of it is read.
 class E57Pages {
  public:
   /// Error{input} if the file header makes no sense or does not fit the number of bytes.
@@ -48,11 +49,13 @@ class E57Document {
   pugi::xml_document xml_;
 };
 
-/// The number in an element; nothing where the element is not there. An empty element is 0. Error{input} if it is no
-/// number.
-[[nodiscard]] std::optional<double> e57_number(const std::string& file, pugi::xml_node parent, const char* name);
+/// The number in an element; nothing where the element is not there. An empty element is 0. Error{input} if
+/// it is no number.
+[[nodiscard]] std::optional<double> e57_number(const std::string& file, pugi::xml_node parent,
+                                               const char* name);
 /// The number of an attribute, or `otherwise`.
-[[nodiscard]] double e57_attribute(const std::string& file, pugi::xml_node node, const char* name, double otherwise);
+[[nodiscard]] double e57_attribute(const std::string& file, pugi::xml_node node, const char* name,
+                                   double otherwise);
 [[nodiscard]] std::int64_t e57_integer(const std::string& file, pugi::xml_node node, const char* name,
                                        std::int64_t otherwise);
 

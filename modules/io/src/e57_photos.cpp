@@ -3,6 +3,7 @@
 
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
+#include "drape/base/log.hpp"
 #include "drape/io/scan_files.hpp"
 #include "e57_file.hpp"
 #include "e57_pose.hpp"
@@ -13,7 +14,8 @@
 namespace drape::io {
 namespace {
 
-/// Focal length and pixel size are metres, the principal point pixels. An E57 camera looks along -z with y up.
+/// Focal length and pixel size are metres, the principal point pixels. An E57 camera looks along -z with y
+/// up.
 std::optional<Camera> camera_of(const std::string& file, pugi::xml_node picture, pugi::xml_node pinhole,
                                 const Image8& pixels) {
   const auto number = [&](const char* name) { return e57_number(file, pinhole, name).value_or(0); };
@@ -25,7 +27,8 @@ std::optional<Camera> camera_of(const std::string& file, pugi::xml_node picture,
   camera.K(0, 2) = number("principalPointX");
   camera.K(1, 2) = number("principalPointY");
   if (!camera.K.allFinite() || !(camera.K(0, 0) > 0) || !(camera.K(1, 1) > 0)) return std::nullopt;
-  if (const auto world_from_camera = e57_pose(file, picture)) camera.camera_from_world = world_from_camera->inverse();
+  if (const auto world_from_camera = e57_pose(file, picture))
+    camera.camera_from_world = world_from_camera->inverse();
   camera.camera_from_world = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()) * camera.camera_from_world;
   return camera;
 }
@@ -44,6 +47,10 @@ std::vector<EmbeddedPhoto> read_embedded_photos(const std::filesystem::path& pat
     const pugi::xml_node blob = form.child("jpegImage") ? form.child("jpegImage") : form.child("pngImage");
     if (!blob) continue;
     const std::string coded = e57_blob(document.pages(), blob);
+    if (!coded.starts_with("\x89PNG") && !coded.starts_with("\xFF\xD8")) {
+      log::warn("{}: an embedded picture is neither JPEG nor PNG and is left out", file);
+      continue;
+    }
     (void)read_picture_header(file, coded);
     EmbeddedPhoto& photo = photos.emplace_back();
     photo.pixels = decode_picture(file, coded).pixels;

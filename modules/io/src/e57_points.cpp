@@ -27,7 +27,8 @@ E57Field field_of(const std::string& file, pugi::xml_node node) {
   field.least = e57_integer(file, node, "minimum", std::numeric_limits<std::int64_t>::min());
   field.most = e57_integer(file, node, "maximum", std::numeric_limits<std::int64_t>::max());
   if (field.most < field.least)
-    throw input_error("{}: the field {} of the points has a maximum below its minimum", file, shown(field.name));
+    throw input_error("{}: the field {} of the points has a maximum below its minimum", file,
+                      shown(field.name));
   field.bits = static_cast<int>(
       std::bit_width(static_cast<std::uint64_t>(field.most) - static_cast<std::uint64_t>(field.least)));
   if (type == "ScaledInteger") {
@@ -91,8 +92,8 @@ E57Points::E57Points(const E57Pages& pages, pugi::xml_node points) : pages_(page
   std::uint64_t bits = 0;
   for (const E57Field& field : fields_) bits += static_cast<std::uint64_t>(field.bits);
   if (bits == 0 || count_ / 8 > pages.size() / bits)
-    throw input_error("{}: the XML section claims {} points of {} bits, which {} bytes cannot hold", file, count_, bits,
-                      pages.size());
+    throw input_error("{}: the XML section claims {} points of {} bits, which {} bytes cannot hold", file,
+                      count_, bits, pages.size());
 }
 
 void E57Points::for_each(const std::function<void(std::span<const double>)>& record) const {
@@ -109,7 +110,8 @@ void E57Points::for_each(const std::function<void(std::span<const double>)>& rec
     const std::uint64_t size = std::uint64_t{load<std::uint16_t>(start, 2)} + 1;
     const auto type = static_cast<unsigned char>(start[0]);
     if (type != data_packet) {
-      if (type > empty_packet || size % 4 != 0) throw byte_error(file, pages_.physical(at), "no packet begins here");
+      if (type > empty_packet || size % 4 != 0)
+        throw byte_error(file, pages_.physical(at), "no packet begins here");
       at += size;
       continue;
     }
@@ -130,7 +132,8 @@ void E57Points::for_each(const std::function<void(std::span<const double>)>& rec
     std::uint64_t whole = count_ - done;
     for (std::size_t k = 0; k < count; ++k) whole = std::min(whole, streams[k].values(fields_[k].bits));
     for (std::uint64_t i = 0; i < whole; ++i) {
-      for (std::size_t k = 0; k < count; ++k) values[k] = value_of(fields_[k], streams[k].take(fields_[k].bits));
+      for (std::size_t k = 0; k < count; ++k)
+        values[k] = value_of(fields_[k], streams[k].take(fields_[k].bits));
       record(values);
     }
     done += whole;

@@ -12,9 +12,9 @@ namespace drape::io {
 
 struct E57Field {
   std::string name;
-  int bits = 0;              // of one value; 0: all values are `offset + least * scale`
-  bool is_float = false;     // of 32 or 64 bits
-  std::int64_t least = 0;    // integers are stored as their distance from it
+  int bits = 0;            // of one value; 0: all values are `offset + least * scale`
+  bool is_float = false;   // of 32 or 64 bits
+  std::int64_t least = 0;  // integers are stored as their distance from it
   std::int64_t most = 0;
   double scale = 1;
   double offset = 0;

@@ -5,8 +5,8 @@
 #include "drape/base/error.hpp"
 #include "drape/base/log.hpp"
 #include "e57_file.hpp"
-#include "e57_pose.hpp"
 #include "e57_points.hpp"
+#include "e57_pose.hpp"
 #include "scan_builder.hpp"
 #include "scan_formats.hpp"
 
@@ -22,7 +22,8 @@ struct Columns {
       return -1;
     };
     x = find("cartesianX"), y = find("cartesianY"), z = find("cartesianZ");
-    range = find("sphericalRange"), azimuth = find("sphericalAzimuth"), elevation = find("sphericalElevation");
+    range = find("sphericalRange"), azimuth = find("sphericalAzimuth"),
+    elevation = find("sphericalElevation");
     cartesian = x >= 0 && y >= 0 && z >= 0;
     spherical = range >= 0 && azimuth >= 0 && elevation >= 0;
     invalid = cartesian ? find("cartesianInvalidState") : find("sphericalInvalidState");
@@ -31,8 +32,8 @@ struct Columns {
     red = find("colorRed"), green = find("colorGreen"), blue = find("colorBlue");
     nx = find("nor:normalX"), ny = find("nor:normalY"), nz = find("nor:normalZ");
   }
-  int x, y, z, range, azimuth, elevation, invalid, row, column, intensity, intensity_invalid, red, green, blue, nx, ny,
-      nz;
+  int x, y, z, range, azimuth, elevation, invalid, row, column, intensity, intensity_invalid, red, green,
+      blue, nx, ny, nz;
   bool cartesian, spherical;
 
   [[nodiscard]] bool has_grid() const { return row >= 0 && column >= 0; }
@@ -88,7 +89,8 @@ class ScanReader57 {
     if (invalid > 0) log::info("{}: {} points marked as invalid are left out", source_.file, invalid);
     RangeScan scan = builder.finish(color_.known() ? 1 : 0, intensity_.known() ? 1 : 0);
     scan.world_from_scan = e57_pose(source_.file, node_);
-    // The standard puts the scanner at the origin of its scan; only what scanners alone write is trusted in that.
+    // The standard puts the scanner at the origin of its scan; only what scanners alone write is trusted in
+    // that.
     if (at_.spherical || at_.has_grid()) scan.view = {ScanView::Kind::origin, Eigen::Vector3d::Zero()};
     return scan;
   }
@@ -106,8 +108,8 @@ class ScanReader57 {
 
   void find_limits() {
     const std::string& file = source_.file;
-    intensity_ =
-        limits_of(file, node_, "intensityLimits", "intensityMinimum", "intensityMaximum", field(at_.intensity));
+    intensity_ = limits_of(file, node_, "intensityLimits", "intensityMinimum", "intensityMaximum",
+                           field(at_.intensity));
     // One scale for the three channels: white stays white.
     color_ = limits_of(file, node_, "colorLimits", "colorRedMinimum", "colorRedMaximum", field(at_.red));
   }
@@ -118,7 +120,8 @@ class ScanReader57 {
       sample.position = {value(record, at_.x), value(record, at_.y), value(record, at_.z)};
     } else {
       const double level = value(record, at_.range) * std::cos(value(record, at_.elevation));
-      sample.position = {level * std::cos(value(record, at_.azimuth)), level * std::sin(value(record, at_.azimuth)),
+      sample.position = {level * std::cos(value(record, at_.azimuth)),
+                         level * std::sin(value(record, at_.azimuth)),
                          value(record, at_.range) * std::sin(value(record, at_.elevation))};
     }
     const SampleFields has = at_.fields();

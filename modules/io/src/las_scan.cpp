@@ -35,17 +35,18 @@ LasHeader read_header(const ScanSource& source) {
   const int minor = static_cast<unsigned char>(bytes[25]);
   const auto header_size = load<std::uint16_t>(bytes, 94);
   if (bytes[24] != 1 || minor > 4)
-    throw byte_error(file, 24, "LAS version {}.{} is not known (1.0 to 1.4 are)", static_cast<unsigned char>(bytes[24]),
-                     minor);
+    throw byte_error(file, 24, "LAS version {}.{} is not known (1.0 to 1.4 are)",
+                     static_cast<unsigned char>(bytes[24]), minor);
   if (header_size < (minor >= 4 ? 375U : shortest_header) || header_size > bytes.size())
     throw byte_error(file, 94, "{} is no size of a LAS 1.{} header", header_size, minor);
   LasHeader header;
   header.first_point = load<std::uint32_t>(bytes, 96);
   header.format = static_cast<unsigned char>(bytes[104]);
   if (header.format & 0xC0U)
-    throw input_error("{}: the points are compressed (LAZ); decompress the file first: laszip -i in.laz -o out.las, or "
-                      "pdal translate in.laz out.las",
-                      file);
+    throw input_error(
+        "{}: the points are compressed (LAZ); decompress the file first: laszip -i in.laz -o out.las, or "
+        "pdal translate in.laz out.las",
+        file);
   if (header.format >= record_bytes.size())
     throw byte_error(file, 104, "point format {} is not known (0 to 10 are)", header.format);
   header.stride = load<std::uint16_t>(bytes, 105);
@@ -59,10 +60,12 @@ LasHeader read_header(const ScanSource& source) {
   if (!header.scale.allFinite() || !header.offset.allFinite() || (header.scale.array() == 0).any())
     throw byte_error(file, 131, "the scales and offsets of the points are no numbers");
   if (header.first_point < header_size || header.first_point > bytes.size())
-    throw byte_error(file, 96, "the points begin at byte {}, which is not behind the header", header.first_point);
+    throw byte_error(file, 96, "the points begin at byte {}, which is not behind the header",
+                     header.first_point);
   if (header.points > (bytes.size() - header.first_point) / header.stride)
-    throw byte_error(file, minor >= 4 ? 247 : 107, "the header claims {} points of {} bytes, but only {} bytes follow",
-                     header.points, header.stride, bytes.size() - header.first_point);
+    throw byte_error(file, minor >= 4 ? 247 : 107,
+                     "the header claims {} points of {} bytes, but only {} bytes follow", header.points,
+                     header.stride, bytes.size() - header.first_point);
   return header;
 }
 
@@ -79,7 +82,8 @@ bool looks_like_las(std::string_view bytes) {
 }
 
 std::vector<RangeScan> read_las_scan(const ScanSource& source) {
-  if (!looks_like_las(source.bytes)) throw byte_error(source.file, 0, "is no LAS file: it does not start with LASF");
+  if (!looks_like_las(source.bytes))
+    throw byte_error(source.file, 0, "is no LAS file: it does not start with LASF");
   const LasHeader header = read_header(source);
   const std::size_t color = color_byte[header.format];
   ScanBuilder builder(source.file, {.colors = color != 0, .intensities = true}, source.options.most_points);
@@ -98,7 +102,8 @@ std::vector<RangeScan> read_las_scan(const ScanSource& source) {
     sample.position = steps.cwiseProduct(header.scale) + header.offset;
     sample.intensity = load<std::uint16_t>(record, 12);
     if (color != 0)
-      sample.color = {double(load<std::uint16_t>(record, color)), double(load<std::uint16_t>(record, color + 2)),
+      sample.color = {double(load<std::uint16_t>(record, color)),
+                      double(load<std::uint16_t>(record, color + 2)),
                       double(load<std::uint16_t>(record, color + 4))};
     builder.add(sample);
   }

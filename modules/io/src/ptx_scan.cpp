@@ -16,7 +16,7 @@ namespace {
 struct PtxHeader {
   int columns = 0;
   int rows = 0;
-  Rigid3 scanner = Rigid3::Identity();                          // lines 3 to 6: its place and axes
+  Rigid3 scanner = Rigid3::Identity();                            // lines 3 to 6: its place and axes
   Eigen::Matrix4d world_from_scan = Eigen::Matrix4d::Identity();  // lines 7 to 10, transposed
 };
 
@@ -37,10 +37,12 @@ class PtxReader {
     const PtxHeader header = read_header();
     const std::size_t first_line = lines_.number() + 1;
     // "0 0 0" and a line end, but for the last.
-    const std::size_t cells = static_cast<std::size_t>(header.columns) * static_cast<std::size_t>(header.rows);
+    const std::size_t cells =
+        static_cast<std::size_t>(header.columns) * static_cast<std::size_t>(header.rows);
     if (cells > (lines_.rest().size() + 1) / 6)
-      throw line_error(source_.file, lines_.number(), "the scan claims {} x {} points, but only {} bytes follow",
-                       header.columns, header.rows, lines_.rest().size());
+      throw line_error(source_.file, lines_.number(),
+                       "the scan claims {} x {} points, but only {} bytes follow", header.columns,
+                       header.rows, lines_.rest().size());
     const Eigen::Matrix3d linear = header.world_from_scan.topLeftCorner<3, 3>();
     const bool rigid = is_rotation(linear, 1e-3);
     RangeScan scan = read_points(header, cells, !rigid);
@@ -51,8 +53,8 @@ class PtxReader {
   void place(RangeScan& scan, const PtxHeader& header, bool rigid, std::size_t first_line) const {
     const Eigen::Vector3d eye = header.scanner.translation();
     if (!rigid) {
-      log::warn("{}:{}: the scan's matrix is no rigid motion; its points were transformed by it", source_.file,
-                first_line - 1);
+      log::warn("{}:{}: the scan's matrix is no rigid motion; its points were transformed by it",
+                source_.file, first_line - 1);
       scan.view = {ScanView::Kind::origin, eye};
       scan.world_from_scan = Rigid3::Identity();
       return;
@@ -64,7 +66,8 @@ class PtxReader {
     const double moved = (pose.translation() - eye).norm();
     if (turned > 1e-3 || moved > 1e-3 * (1 + eye.norm()))
       log::warn(
-          "{}:{}: the scan's matrix and its scanner lines differ by {:.3g} units and {:.3g} degrees: it may have "
+          "{}:{}: the scan's matrix and its scanner lines differ by {:.3g} units and {:.3g} degrees: it may "
+          "have "
           "been exported in a coordinate system of its own; the matrix is used",
           source_.file, first_line - 1, moved, turned * 180 / M_PI);
   }
@@ -103,7 +106,8 @@ class PtxReader {
     Words words(lines_.line());
     const auto count = parse_integer(words.next());
     if (!count || *count < 1 || *count > 100'000'000 || !words.rest().empty())
-      throw line_error(source_.file, lines_.number(), "{} is no number of columns or rows", shown(lines_.line()));
+      throw line_error(source_.file, lines_.number(), "{} is no number of columns or rows",
+                       shown(lines_.line()));
     return static_cast<int>(*count);
   }
 
@@ -114,11 +118,11 @@ class PtxReader {
     for (double& value : values) {
       const auto number = parse_value(words.next());
       if (!number || !std::isfinite(*number))
-        throw line_error(source_.file, lines_.number(), "{} should be {} numbers", shown(lines_.line()), count);
+        throw line_error(source_.file, lines_.number(), "{} should be {} numbers", shown(lines_.line()),
+                         count);
       value = *number;
     }
-    if (!words.rest().empty())
-      throw line_error(source_.file, lines_.number(), "more than {} numbers", count);
+    if (!words.rest().empty()) throw line_error(source_.file, lines_.number(), "more than {} numbers", count);
     return values;
   }
 
@@ -144,20 +148,22 @@ class PtxReader {
     std::array<double, 10> values{};
     for (std::size_t i = 0; i < cells; ++i) {
       if (!lines_.next_filled())
-        throw line_error(source_.file, lines_.number(), "the file ends after {} of the scan's {} points", i, cells);
+        throw line_error(source_.file, lines_.number(), "the file ends after {} of the scan's {} points", i,
+                         cells);
       const std::size_t count = read_point(values);
       Sample sample;
       sample.position = Eigen::Vector3d(values.data());
       if (sample.position.isZero(0)) continue;
       if (!builder) {
         width = count;
-        builder.emplace(source_.file, SampleFields{width == 10, width >= 7, width >= 4}, source_.options.most_points);
+        builder.emplace(source_.file, SampleFields{width == 10, width >= 7, width >= 4},
+                        source_.options.most_points);
         builder->expect(cells - i);
         builder->set_grid(header.rows, header.columns);
       }
       if (count != width)
-        throw line_error(source_.file, lines_.number(), "has {} numbers, but the scan's first point has {}", count,
-                         width);
+        throw line_error(source_.file, lines_.number(), "has {} numbers, but the scan's first point has {}",
+                         count, width);
       sample.intensity = values[3];
       sample.color = Eigen::Vector3d(values.data() + 4);
       sample.normal = Eigen::Vector3d(values.data() + 7);

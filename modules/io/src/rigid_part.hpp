@@ -1,8 +1,8 @@
 // Poses as files round them.
 #pragma once
 
-#include <Eigen/SVD>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include "drape/geometry/rigid3.hpp"
 

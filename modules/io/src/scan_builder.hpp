@@ -29,8 +29,8 @@ struct Sample {
 
 /// Holds at most `most_points` samples (0: any number). With more, the samples fall into the cells of a voxel
 /// grid, of which each keeps the sample nearest to its centre; the voxels double whenever they are too many,
-/// so that a scan of unknown size and extent ends with between a quarter of `most_points` and all of them. The
-/// result depends on the samples and their order alone. A thinned scan loses its lattice.
+/// so that a scan of unknown size and extent ends with between a quarter of `most_points` and all of them.
+/// The result depends on the samples and their order alone. A thinned scan loses its lattice.
 class ScanBuilder {
  public:
   ScanBuilder(std::string file, SampleFields fields, std::size_t most_points);
@@ -39,7 +39,8 @@ class ScanBuilder {
   void expect(std::size_t count);
   /// Samples that are not finite are left out.
   void add(const Sample& sample);
-  /// The same, and its place on the lattice: 0-based, any size. Two samples of one cell: the later one counts.
+  /// The same, and its place on the lattice: 0-based, any size. Two samples of one cell: the later one
+  /// counts.
   void add(const Sample& sample, std::int64_t row, std::int64_t column);
   /// At least this size, whatever cells are filled.
   void set_grid(int rows, int columns);

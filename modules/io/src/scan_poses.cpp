@@ -56,7 +56,8 @@ Poses parse_stanford_conf(const std::string& file, std::string_view bytes) {
 }
 
 /// Sixteen numbers row by row, of which `words` gives as many as it has.
-bool take_numbers(const std::string& file, std::size_t line, Words words, Eigen::Matrix4d& matrix, Eigen::Index& count) {
+bool take_numbers(const std::string& file, std::size_t line, Words words, Eigen::Matrix4d& matrix,
+                  Eigen::Index& count) {
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     const auto value = parse_value(word);
     if (!value || !std::isfinite(*value)) throw line_error(file, line, "{} is no number", shown(word));
@@ -95,7 +96,8 @@ Poses parse_aln(const std::string& file, std::string_view bytes) {
     Eigen::Index numbers = 0;
     do {
       next();
-    } while (lines.line().starts_with('#') || !take_numbers(file, lines.number(), Words(lines.line()), matrix, numbers));
+    } while (lines.line().starts_with('#') ||
+             !take_numbers(file, lines.number(), Words(lines.line()), matrix, numbers));
     add_pose(poses, file, line, scan, matrix);
   }
   return poses;
@@ -105,16 +107,21 @@ Poses parse_aln(const std::string& file, std::string_view bytes) {
 Poses parse_mlp(const std::string& file, std::string_view bytes) {
   pugi::xml_document document;
   if (const auto result = document.load_buffer(bytes.data(), bytes.size()); !result)
-    throw byte_error(file, static_cast<std::uint64_t>(result.offset), "the XML is damaged: {}", result.description());
+    throw byte_error(file, static_cast<std::uint64_t>(result.offset), "the XML is damaged: {}",
+                     result.description());
   Poses poses;
   for (const pugi::xml_node mesh : document.child("MeshLabProject").child("MeshGroup").children("MLMesh")) {
     const auto place = static_cast<std::size_t>(mesh.offset_debug());
-    const std::size_t line = 1 + static_cast<std::size_t>(std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(place, bytes.size())), '\n'));
+    const std::size_t line =
+        1 +
+        static_cast<std::size_t>(std::count(
+            bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(place, bytes.size())), '\n'));
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     Eigen::Index numbers = 0;
     TextLines lines(mesh.child("MLMatrix44").text().get());
     while (lines.next_filled()) take_numbers(file, line, Words(lines.line()), matrix, numbers);
-    if (numbers != 0 && numbers != 16) throw line_error(file, line, "a matrix has sixteen numbers, not {}", numbers);
+    if (numbers != 0 && numbers != 16)
+      throw line_error(file, line, "a matrix has sixteen numbers, not {}", numbers);
     add_pose(poses, file, line, base_name(mesh.attribute("filename").value()), matrix);
   }
   if (poses.empty()) throw input_error("{}: holds no MLMesh with a matrix", file);
@@ -125,13 +132,15 @@ struct PoseFormat {
   std::string_view extension;
   Poses (*parse)(const std::string& file, std::string_view bytes);
 };
-constexpr std::array<PoseFormat, 3> formats{{{"conf", parse_stanford_conf}, {"aln", parse_aln}, {"mlp", parse_mlp}}};
+constexpr std::array<PoseFormat, 3> formats{
+    {{"conf", parse_stanford_conf}, {"aln", parse_aln}, {"mlp", parse_mlp}}};
 
 }  // namespace
 
 bool is_pose_file(const std::filesystem::path& file) {
   const std::string ending = extension(file);
-  return std::any_of(formats.begin(), formats.end(), [&](const PoseFormat& format) { return format.extension == ending; });
+  return std::any_of(formats.begin(), formats.end(),
+                     [&](const PoseFormat& format) { return format.extension == ending; });
 }
 
 std::map<std::string, Rigid3> read_scan_poses(const std::filesystem::path& file) {

@@ -57,7 +57,8 @@ std::string pcd_of(const RangeScan& scan) {
   const Eigen::Vector3d origin =
       scan.view.kind == ScanView::Kind::origin ? scan.view.vector : Eigen::Vector3d(Eigen::Vector3d::Zero());
   std::string bytes = fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT {}\nWIDTH {}\nHEIGHT "
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT {}\nWIDTH "
+      "{}\nHEIGHT "
       "{}\nVIEWPOINT {} {} {} 1 0 0 0\nPOINTS {}\nDATA binary\n",
       fields, sizes, types, counts, width, height, format_number(origin.x()), format_number(origin.y()),
       format_number(origin.z()), width * height);
@@ -84,7 +85,8 @@ void write_scan(const std::filesystem::path& file, const RangeScan& scan) {
   if (ending == "ply") return write_scan_ply(file, scan);
   if (ending == "pcd") return write_file(file, pcd_of(scan));
   if (ending == "csv") return write_file(file, text_of(scan.cloud, ','));
-  if (ending == "xyz" || ending == "txt" || ending == "asc") return write_file(file, text_of(scan.cloud, ' '));
+  if (ending == "xyz" || ending == "txt" || ending == "asc")
+    return write_file(file, text_of(scan.cloud, ' '));
   throw config_error("{}: scans are written as .ply, .pcd, .xyz, .txt, .asc or .csv", file.string());
 }
 

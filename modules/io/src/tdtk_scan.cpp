@@ -1,7 +1,8 @@
 // 3DTK's scans: scanNNN.3d with points, beside it scanNNN.frames or scanNNN.pose with where it was taken.
 //
-// 3DTK's frame is left-handed: x right, y up, z ahead, in centimetres where its own converters wrote it. Points and
-// poses are turned to a right-handed frame with z up: (x, y, z) -> (z, -x, y), the inverse of what those converters do.
+// 3DTK's frame is left-handed: x right, y up, z ahead, in centimetres where its own converters wrote it.
+// Points and poses are turned to a right-handed frame with z up: (x, y, z) -> (z, -x, y), the inverse of what
+// those converters do.
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
@@ -24,7 +25,8 @@ const Eigen::Matrix3d& right_from_left() {
 
 Rigid3 turned(const Eigen::Matrix4d& left) {
   Eigen::Matrix4d right = Eigen::Matrix4d::Identity();
-  right.topLeftCorner<3, 3>() = right_from_left() * left.topLeftCorner<3, 3>() * right_from_left().transpose();
+  right.topLeftCorner<3, 3>() =
+      right_from_left() * left.topLeftCorner<3, 3>() * right_from_left().transpose();
   right.topRightCorner<3, 1>() = right_from_left() * left.topRightCorner<3, 1>();
   return nearest_rigid(right);
 }
@@ -34,13 +36,15 @@ std::array<double, count> numbers(const std::string& file, const TextLines& line
   std::array<double, count> values{};
   for (double& value : values) {
     const auto number = parse_value(words.next());
-    if (!number || !std::isfinite(*number)) throw line_error(file, lines.number(), "{} numbers are expected", count);
+    if (!number || !std::isfinite(*number))
+      throw line_error(file, lines.number(), "{} numbers are expected", count);
     value = *number;
   }
   return values;
 }
 
-/// One line per step of the registration: 16 numbers of a matrix, column by column, and a tag. The last counts.
+/// One line per step of the registration: 16 numbers of a matrix, column by column, and a tag. The last
+/// counts.
 Rigid3 read_frames(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string bytes = read_file(path);
@@ -100,12 +104,13 @@ std::vector<RangeScan> read_3dtk_scan(const ScanSource& source) {
     if (!builder && count < 3 && lines.number() == 1) continue;
     if (!builder) {
       width = count;
-      builder.emplace(source.file, SampleFields{.colors = width >= 6, .intensities = width == 4 || width == 7},
+      builder.emplace(source.file,
+                      SampleFields{.colors = width >= 6, .intensities = width == 4 || width == 7},
                       source.options.most_points);
     }
     if (count != width || width < 3 || width == 5)
-      throw line_error(source.file, lines.number(), "has {} numbers; a point has 3, 4 (reflectance), 6 or 7 (colour)",
-                       count);
+      throw line_error(source.file, lines.number(),
+                       "has {} numbers; a point has 3, 4 (reflectance), 6 or 7 (colour)", count);
     Sample sample;
     sample.position = right_from_left() * Eigen::Vector3d(values.data());
     sample.intensity = values[3];

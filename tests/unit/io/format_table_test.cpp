@@ -13,8 +13,8 @@ TEST(Readme, ListsTheScanFormatsAsTheReadersDo) {
   for (const io::ScanFormatFacts& facts : io::scan_format_facts()) {
     std::string row = "| " + std::string(facts.name) + " | `.";
     for (const char c : facts.extensions) row += c == ' ' ? std::string("` `.") : std::string(1, c);
-    row += "` | " + std::string(facts.reads) + " | " + std::string(facts.keeps) + " | " + (facts.written ? "yes" : "") +
-           " |";
+    row += "` | " + std::string(facts.reads) + " | " + std::string(facts.keeps) + " | " +
+           (facts.written ? "yes" : "") + " |";
     EXPECT_NE(readme.find(row), std::string::npos) << row;
   }
 }
