@@ -16,7 +16,7 @@ namespace drape::app {
 namespace {
 
 std::string vector_text(const Eigen::Vector3d& v) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z());
+  return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x(), v.y(), v.z());
 }
 
 std::string fields_of(const PointCloud& cloud) {
