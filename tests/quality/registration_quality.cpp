@@ -96,10 +96,10 @@ std::size_t wrong_pairs(const Posed& posed, const Registration& found, double si
     if (verbose)
       fmt::print(
           "  {:>2} {:>2}  {:<5} {:<6}  {:6.2f} deg {:6.3f} %  overlap {:5.1f} %  rms {:.3g}  through {:5.2f} "
-          "%  void {:5.2f} %  {}\n",
+          "%  void {:5.2f} %  hold {:.4f}  {}\n",
           pair.first, pair.second, right ? "right" : "wrong", pair.accepted ? "taken" : "left", degrees,
           100 * off / size, 100 * pair.overlap, pair.rms_m, 100 * pair.seen_through, 100 * pair.in_void,
-          pair.reason);
+          pair.hold, pair.reason);
   }
   return wrong;
 }
@@ -143,9 +143,10 @@ void measure_captures(const std::vector<std::string>& names, bool verbose) {
       fmt::print(", rms {:.2f} spacings, overlap {:.0f} %",
                  pair.rms_m / std::max(two[0].spacing, two[1].spacing), 100 * pair.overlap);
     for (const auto& pair : found.searched)
-      fmt::print(" (searched: overlap {:.0f} %, rms {:.3g}, through {:.1f} %, turned {:.0f} deg)",
-                 100 * pair.overlap, pair.rms_m, 100 * pair.seen_through,
-                 degrees_between(pair.second_from_first.linear(), Eigen::Matrix3d::Identity()));
+      fmt::print(
+          " (searched: overlap {:.0f} %, rms {:.3g}, through {:.1f} %, hold {:.3f}, turned {:.0f} deg)",
+          100 * pair.overlap, pair.rms_m, 100 * pair.seen_through, pair.hold,
+          degrees_between(pair.second_from_first.linear(), Eigen::Matrix3d::Identity()));
     fmt::print(", {:.1f} s{}{}\n", cpu_seconds() - start, verbose ? "; " : "",
                verbose ? found.scans[1].reason : "");
   }

@@ -13,6 +13,7 @@
 #include "lattice_view.hpp"
 #include "mixed_pixels.hpp"
 #include "neighborhoods.hpp"
+#include "point_filters.hpp"
 #include "statistical_outliers.hpp"
 #include "surface_normals.hpp"
 
@@ -135,9 +136,11 @@ void drop_grazing(CleanedScan& cleaned, const ScanView& view, double max_inciden
 std::vector<float> confidences(const RangeScan& scan, const ScanView& view) {
   const std::vector<double> cosines = incidence_cosines(scan, view);
   const auto& stated = scan.cloud.confidences;
+  const LocalSpacing local(scan, 1);
   std::vector<float> result(cosines.size());
   for (std::size_t i = 0; i < result.size(); ++i)
-    result[i] = static_cast<float>(std::clamp(cosines[i], 0.0, 1.0)) *
+    result[i] = static_cast<float>(std::clamp(cosines[i], 0.0, 1.0) /
+                                   std::max(1.0, local.ratio(scan.cloud.positions[i]))) *
                 (stated.empty() ? 1.0F : std::clamp(stated[i], 0.0F, 1.0F));
   return result;
 }
@@ -150,12 +153,17 @@ CleanedScan clean_scan(const RangeScan& raw, const CleanOptions& options, const 
   progress.update(0, "cleaning " + raw.file);
   drop(cleaned, "not_finite", not_finite(scan.cloud.positions));
   drop(cleaned, "duplicate", duplicates(scan.cloud.positions));
+  drop(cleaned, "cropped", outside_of_box(scan, options.crop_box));
+  drop(cleaned, "intensity", outside_of_intensities(scan, options.min_intensity, options.max_intensity));
   const double raw_spacing = point_spacing(scan);
   const ScanView view = view_or_lattice_axis(scan);
 
   progress.update(0.2);
   drop(cleaned, "mixed_pixel", mixed_pixels(scan, view, options.mixed_pixel_angle_deg));
   const bool own_normals = options.normals == Normals::automatic && has_sound_normals(scan.cloud);
+  drop(cleaned, "sparse",
+       sparse_points(scan, raw_spacing, options.outlier_radius_spacings * raw_spacing,
+                     static_cast<std::size_t>(options.outlier_radius_points)));
   drop_outliers_and_fit_normals(cleaned, options, own_normals, raw_spacing);
 
   progress.update(0.7);
@@ -166,6 +174,7 @@ CleanedScan clean_scan(const RangeScan& raw, const CleanOptions& options, const 
        small_islands(scan, view, raw_spacing, options.island_gap_spacings,
                      static_cast<std::size_t>(options.min_island_points)));
   scan.cloud.confidences = confidences(scan, view);
+  drop(cleaned, "thinned", all_but_best_seen(scan.cloud, options.thin_voxel_spacings * raw_spacing));
   scan.spacing = point_spacing(scan);
   progress.update(1);
   return cleaned;

@@ -1,8 +1,10 @@
 #include "coarse_fit.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace drape::registration {
 namespace {
@@ -32,6 +34,24 @@ Rigid3 moved(const Rigid3& motion, const Vector6& step, const Eigen::Vector3d& c
   return result;
 }
 
+double hold_of(const CoarseScan& target, const std::vector<std::uint32_t>& on) {
+  const auto count = static_cast<double>(on.size());
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const std::uint32_t i : on) center += target.points()[i] / count;
+  double squares = 0;
+  for (const std::uint32_t i : on) squares += (target.points()[i] - center).squaredNorm() / count;
+  const double radius = std::sqrt(squares);
+  if (!(radius > 0)) return 0;
+  Matrix6 moves = Matrix6::Zero();
+  for (const std::uint32_t i : on) {
+    Vector6 row;
+    row << ((target.points()[i] - center) / radius).cross(target.normals()[i]), target.normals()[i];
+    moves.noalias() += row * row.transpose();
+  }
+  const Vector6 sizes = Eigen::SelfAdjointEigenSolver<Matrix6>(moves, Eigen::EigenvaluesOnly).eigenvalues();
+  return sizes[0] / sizes.mean();
+}
+
 }  // namespace
 
 CoarseFit measure_fit(const CoarseScan& source, const CoarseScan& target, const Rigid3& target_from_source,
@@ -39,6 +59,7 @@ CoarseFit measure_fit(const CoarseScan& source, const CoarseScan& target, const 
   std::size_t samples = 0;
   std::size_t matched = 0;
   double squares = 0;
+  std::vector<std::uint32_t> on;
   for (std::size_t i = 0; i < source.size(); i += stride) {
     ++samples;
     const Eigen::Vector3d point = target_from_source * source.points()[i];
@@ -51,11 +72,12 @@ CoarseFit measure_fit(const CoarseScan& source, const CoarseScan& target, const 
         normal.dot(target_from_source.linear() * source.normals()[i]) < least_cosine)
       continue;
     ++matched;
+    on.push_back(*nearest);
     squares += distance * distance;
   }
   if (matched == 0) return {};
   return {static_cast<double>(matched) / static_cast<double>(samples),
-          std::sqrt(squares / static_cast<double>(matched)) / target.voxel()};
+          std::sqrt(squares / static_cast<double>(matched)) / target.voxel(), hold_of(target, on)};
 }
 
 Rigid3 fit_coarsely(const CoarseScan& source, const CoarseScan& target,

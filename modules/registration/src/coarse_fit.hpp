@@ -10,6 +10,10 @@ namespace drape::registration {
 struct CoarseFit {
   double overlap = 0;     // share of the points within a voxel of the other's surface, 0..1
   double rms_voxels = 0;  // distance of these to it
+  /// How firmly the surface that they share holds one on the other: the squared distance along the normals
+  /// that the motion of unit size moves them which moves them least, against that of motions on the average.
+  /// 0 for a plane, a cylinder, a ball and all that slides on itself (Gelfand et al. 2003).
+  double hold = 0;
 };
 
 /// Of every stride-th point of `source`.

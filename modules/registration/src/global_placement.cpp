@@ -138,7 +138,7 @@ GlobalPlacement place_globally(std::vector<PlacedScan> placed, std::span<const R
     if (found[k].empty()) continue;
     const PairPose& best = found[k][0];
     result.pairs.push_back({pairs[k].source, pairs[k].target, best.target_from_source, best.overlap,
-                            best.rms_voxels * result.voxel, best.seen_through, best.in_void,
+                            best.rms_voxels * result.voxel, best.seen_through, best.in_void, best.hold,
                             best.against.empty(), best.against});
     for (const PairPose& pose : found[k])
       if (pose.against.empty()) {

@@ -12,9 +12,9 @@
 namespace drape::registration {
 namespace {
 
-constexpr std::size_t most_matches = 1500;
-constexpr std::size_t most_guesses = 60;
-constexpr std::size_t most_fitted = 8;
+constexpr std::size_t most_matches = 2000;
+constexpr std::size_t most_guesses = 150;
+constexpr std::size_t most_fitted = 20;
 constexpr std::size_t guess_samples = 500;
 constexpr std::size_t fit_samples = 1200;
 
@@ -23,6 +23,8 @@ constexpr std::size_t fit_samples = 1200;
 constexpr double least_overlap = 0.1;
 constexpr double most_rms_voxels = 0.28;
 constexpr double most_contradiction = 0.015;
+// Wrong pairs that nothing else gives away share a round body: 0.02. Scans that are held have 0.03 and more.
+constexpr double least_hold = 0.025;
 constexpr double noise_left = 0.6;  // of the noise of single points, in smoothed ones
 
 std::size_t stride_for(const CoarseScan& scan, std::size_t samples) {
@@ -64,6 +66,7 @@ PairPose judge_pair(const SearchedScan& source, const SearchedScan& target,
       std::max(
           target.sight.in_void_share(source.coarse.points(), source.coarse.normals(), target_from_source),
           source.sight.in_void_share(target.coarse.points(), target.coarse.normals(), source_from_target)),
+      std::max(there.hold, back.hold),
       {}};
   const double noise = std::max(source.coarse.noise(), target.coarse.noise()) / voxel;
   const double most_rms = std::hypot(most_rms_voxels, noise_left * noise);
@@ -75,6 +78,8 @@ PairPose judge_pair(const SearchedScan& source, const SearchedScan& target,
     pose.against =
         fmt::format("{:.1f} % of one lies where the other looked through, {:.1f} % where it saw nothing",
                     100 * pose.seen_through, 100 * pose.in_void);
+  else if (pose.hold < least_hold)
+    pose.against = "what they share slides on itself, as planes and round bodies do";
   return pose;
 }
 

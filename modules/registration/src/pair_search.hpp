@@ -31,6 +31,7 @@ struct PairPose {
   double rms_voxels = 0;    // distance of these to it
   double seen_through = 0;  // the larger of the two shares of points that lie where the other looked through
   double in_void = 0;   // the larger of the two shares of points that lie where the other saw nothing at all
+  double hold = 0;      // how firmly the shared surface holds each on the other, see CoarseFit
   std::string against;  // why it is not to be believed; empty if it is
 
   /// How much contradicts the lines of sight: missing returns have other causes too, and weigh less.

@@ -139,6 +139,14 @@ void move_to(const io::WorkspaceFrame& frame, const Eigen::Vector3d& offset_m, R
     scan.world_from_scan->translation() += scan.world_from_scan->linear() * offset_m - frame.world_offset_m;
 }
 
+// The crop box is stated in the units of the scans.
+ingest::CleanOptions moved_to(const io::WorkspaceFrame& frame, const Eigen::Vector3d& offset_m,
+                              ingest::CleanOptions options) {
+  for (std::size_t i = 0; i < options.crop_box.size(); ++i)
+    options.crop_box[i] = options.crop_box[i] * frame.metres_per_input_unit - offset_m[static_cast<Eigen::Index>(i % 3)];
+  return options;
+}
+
 void run(const ingest::CleanOptions& options, pipeline::StageRun& run) {
   std::vector<RangeScan> scans = read_all(run.input(), run.progress().part(0, 0.4));
   compare_sizes(scans);
@@ -152,7 +160,8 @@ void run(const ingest::CleanOptions& options, pipeline::StageRun& run) {
                           scans[i].file);
     const Eigen::Vector3d offset_m = scan_offset(record.frame, scans[i]);
     move_to(record.frame, offset_m, scans[i]);
-    const ingest::CleanedScan cleaned = ingest::clean_scan(scans[i], options, {});
+    const ingest::CleanedScan cleaned =
+        ingest::clean_scan(scans[i], moved_to(record.frame, offset_m, options), {});
     const RangeScan& scan = cleaned.scan;
     if (scan.cloud.empty())
       throw input_error("{}: scan {} has no points left after cleaning; loosen the ingest options", scan.file,
@@ -183,7 +192,7 @@ void run(const ingest::CleanOptions& options, pipeline::StageRun& run) {
 pipeline::Stage ingest_stage() {
   pipeline::Stage stage;
   stage.name = "ingest";
-  stage.version = 2;
+  stage.version = 3;
   stage.summary = "Reads the scans, drops bad points, and finds oriented normals.";
   stage.input_parts = {"scans", "units"};
   stage.writes = {"scans.json", "scans/*.ply", "photos/*.png", "photos/cameras.json"};

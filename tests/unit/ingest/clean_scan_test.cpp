@@ -356,6 +356,83 @@ TEST(CleanScan, OfThreePointsAndOfALine) {
   for (const auto& n : cleaned.scan.cloud.normals) EXPECT_NEAR(n.norm(), 1, 1e-5);
 }
 
+RangeScan flat_lattice() {
+  return scan_field(test::box_field({100, 100, 1}), Rigid3::Identity(), {});  // 60 x 60 points, 1 apart
+}
+
+TEST(CleanScan, KeepsWhatLiesInTheCropBox) {
+  CleanOptions options = keep_all();
+  options.crop_box = {-10, -5, -100, 10, 5, 100};
+  const CleanedScan cleaned = clean_scan(flat_lattice(), options, {});
+  EXPECT_EQ(cleaned.scan.cloud.size(), 200U);
+  EXPECT_EQ(cleaned.dropped.at("cropped"), 3400U);
+  for (const auto& p : cleaned.scan.cloud.positions) {
+    EXPECT_LE(std::abs(p.x()), 10);
+    EXPECT_LE(std::abs(p.y()), 5);
+  }
+}
+
+TEST(CleanScan, DropsReturnsThatAreTooWeakOrTooStrong) {
+  RangeScan raw = flat_lattice();
+  CleanOptions options = keep_all();
+  options.min_intensity = 0.25;
+  options.max_intensity = 0.75;
+  EXPECT_EQ(clean_scan(raw, options, {}).dropped.at("intensity"), 0U) << "nothing is known of returns";
+  for (std::size_t i = 0; i < raw.cloud.size(); ++i)
+    raw.cloud.intensities.push_back(static_cast<float>(i % 4) / 3);  // 0, 1/3, 2/3, 1
+  const CleanedScan cleaned = clean_scan(raw, options, {});
+  EXPECT_EQ(cleaned.dropped.at("intensity"), 1800U);
+  for (const float intensity : cleaned.scan.cloud.intensities) EXPECT_NEAR(intensity, 0.5F, 0.2F);
+}
+
+TEST(CleanScan, DropsPointsWithTooFewAround) {
+  RangeScan raw = test::without_grid(flat_lattice());
+  const std::size_t sound = raw.cloud.size();
+  for (int i = 0; i < 5; ++i) raw.cloud.positions.emplace_back(10 * i, 0, 20);
+  raw.cloud.positions.emplace_back(0.5, 0, 20);  // two that have only each other
+  CleanOptions options = keep_all();
+  options.outlier_radius_spacings = 2.5;
+  options.outlier_radius_points = 3;
+  const CleanedScan cleaned = clean_scan(raw, options, {});
+  EXPECT_EQ(cleaned.dropped.at("sparse"), 6U);
+  EXPECT_EQ(cleaned.scan.cloud.size(), sound);
+  options.outlier_radius_points = 1;
+  EXPECT_EQ(clean_scan(raw, options, {}).dropped.at("sparse"), 4U);
+}
+
+TEST(CleanScan, ThinningKeepsThePointThatWasSeenBest) {
+  RangeScan raw = flat_lattice();
+  for (std::size_t i = 0; i < raw.cloud.size(); ++i)
+    raw.cloud.confidences.push_back(i % 7 == 0 ? 1.0F : 0.5F);
+  CleanOptions options = keep_all();
+  options.thin_voxel_spacings = 10;
+  const CleanedScan cleaned = clean_scan(raw, options, {});
+  EXPECT_EQ(cleaned.scan.cloud.size(), 36U);
+  EXPECT_EQ(cleaned.dropped.at("thinned"), 3564U);
+  for (const float confidence : cleaned.scan.cloud.confidences)
+    EXPECT_NEAR(confidence, 1.0F, 1e-5F) << "each voxel of a hundred points has a good one";
+}
+
+TEST(CleanScan, IsLessConfidentOfWhatLiesFar) {
+  // Two plates, one twice as far from the scanner as the other, the far one with fewer points.
+  const auto field =
+      test::united([box = test::box_field({21, 100, 1})](
+                       const Eigen::Vector3d& p) { return box(p - Eigen::Vector3d(-18, 0, 0)); },
+                   [box = test::box_field({400, 400, 1})](const Eigen::Vector3d& p) {
+                     return box(p - Eigen::Vector3d(0, 0, -200));
+                   });
+  const RangeScan raw =
+      scan_field(field, Rigid3::Identity(), {.distance = 200, .most_depth = 900, .diverging = true});
+  const CleanedScan cleaned = clean_scan(raw, keep_all(), {});
+  for (std::size_t i = 0; i < cleaned.scan.cloud.size(); ++i) {
+    const Eigen::Vector3d& p = cleaned.scan.cloud.positions[i];
+    const Eigen::Vector3d ray = p - raw.view.vector;
+    if (std::abs(cleaned.scan.cloud.normals[i].z()) < 0.999F) continue;  // at the edge between them
+    const double cosine = -ray.normalized().z();
+    EXPECT_NEAR(cleaned.scan.cloud.confidences[i], p.z() > -100 ? cosine : cosine / 2, 0.05);
+  }
+}
+
 TEST(CleanScan, OptionsHaveNamesRangesAndHelp) {
   CleanOptions options;
   for (const Option& option : options_of(options)) EXPECT_FALSE(option.help.empty()) << option.name;
