@@ -143,7 +143,8 @@ void move_to(const io::WorkspaceFrame& frame, const Eigen::Vector3d& offset_m, R
 ingest::CleanOptions moved_to(const io::WorkspaceFrame& frame, const Eigen::Vector3d& offset_m,
                               ingest::CleanOptions options) {
   for (std::size_t i = 0; i < options.crop_box.size(); ++i)
-    options.crop_box[i] = options.crop_box[i] * frame.metres_per_input_unit - offset_m[static_cast<Eigen::Index>(i % 3)];
+    options.crop_box[i] =
+        options.crop_box[i] * frame.metres_per_input_unit - offset_m[static_cast<Eigen::Index>(i % 3)];
   return options;
 }
 
