@@ -18,6 +18,7 @@
 #include "point_merging.hpp"
 #include "poisson.hpp"
 #include "range_fusion.hpp"
+#include "scale_space.hpp"
 #include "trimming.hpp"
 #include "vertex_fans.hpp"
 
@@ -156,6 +157,11 @@ MeshResult mesh_merged_cloud(const MeshInput& input, Method method, const MeshOp
                                {sample_spacing, options.poisson_radius_spacings * spacing,
                                 options.poisson_distance_spacings * spacing},
                                progress.part(0.05, 0.9));
+  } else if (method == Method::scale_space) {
+    progress.update(0.05, "smoothing, and advancing front");
+    constexpr double radius_spacings = 3;
+    const double sample_spacing = std::max(1.0, options.merge_voxel_spacings) * spacing;
+    result.mesh = scale_space_mesh(samples, radius_spacings * sample_spacing, 4 * trim);
   } else {
     progress.update(0.05, "advancing front");
     result.mesh = advancing_front_mesh(samples, 4 * trim);
@@ -237,16 +243,16 @@ MeshResult fuse(const MeshInput& input, const MeshOptions& options, const Progre
   Fused fused = fused_mesh(input.scans, input.world_from_scan,
                            {input.spacing,
                             options.fusion_voxel_spacings * input.spacing,
+                            options.closed,
+                            options.min_component_percent,
                             {options.grid_max_edge_spacings, options.grid_max_incidence_deg}},
                            progress.part(0, 0.95));
+  progress.update(0.95);
   MeshResult result;
   result.samples_used = fused.samples;
-  progress.update(0.95, "cleaning the mesh");
-  Cleaned cleaned = without_touching_fans(fused.mesh);
-  result.non_manifold_repaired = cleaned.removed;
-  cleaned = without_small_components(cleaned.mesh, options.min_component_percent);
-  result.components_removed = cleaned.removed;
-  result.mesh = without_unused_vertices(cleaned.mesh);
+  result.non_manifold_repaired = fused.touching_vertices;
+  result.components_removed = fused.pieces_removed;
+  result.mesh = std::move(fused.mesh);
   return result;
 }
 

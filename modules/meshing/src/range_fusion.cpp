@@ -6,11 +6,14 @@
 #include "depth_map.hpp"
 #include "drape/base/log.hpp"
 #include "drape/base/parallel.hpp"
+#include "drape/geometry/kd_tree.hpp"
+#include "field_cleaning.hpp"
 #include "fused_attributes.hpp"
 #include "fused_field.hpp"
 #include "fusion_blocks.hpp"
 #include "marching_cubes.hpp"
 #include "sight.hpp"
+#include "space_carving.hpp"
 
 namespace drape::meshing {
 namespace {
@@ -64,6 +67,27 @@ SeenScan all_seen(std::span<const RangeScan> scans, std::span<const Rigid3> worl
   return all;
 }
 
+void clean(FieldSurface& surface, double min_component_percent, Fused& fused) {
+  Cleaned cleaned = without_touching_border_fans(std::move(surface.mesh));
+  fused.touching_vertices = cleaned.removed;
+  cleaned = without_small_pieces(std::move(cleaned.mesh), min_component_percent);
+  fused.pieces_removed = cleaned.removed;
+  surface.mesh = std::move(cleaned.mesh);
+}
+
+// Faces that no vertex of the open surface is near.
+void mark_carved_faces(TriangleMesh& mesh, const TriangleMesh& open, double voxel) {
+  const KdTree tree(open.vertices);
+  mesh.filled.assign(mesh.faces.size(), 0);
+  parallel_for(mesh.faces.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Face& f = mesh.faces[i];
+      const Eigen::Vector3d middle = (mesh.vertices[f[0]] + mesh.vertices[f[1]] + mesh.vertices[f[2]]) / 3;
+      mesh.filled[i] = tree.nearest_within(middle, 1.5 * voxel) ? 0 : 1;
+    }
+  });
+}
+
 }  // namespace
 
 bool can_be_fused(const RangeScan& scan) {
@@ -76,10 +100,24 @@ Fused fused_mesh(std::span<const RangeScan> scans, std::span<const Rigid3> world
   const FusionBlocks blocks = blocks_round(seen.maps, sizes.voxel, FusedField::truncation_voxels);
   const FusedField field = fused_field(blocks, seen.maps, progress.part(0.4, 0.8));
   progress.update(0.8, "marching cubes");
+  Fused fused;
+  fused.samples = seen.samples;
   FieldSurface surface = field_surface(blocks, field);
-  progress.update(0.9, "fusing colours");
-  fuse_attributes(surface, blocks, seen.maps, scans);
-  return {std::move(surface.mesh), seen.samples};
+  clean(surface, sizes.min_component_percent, fused);
+  if (!sizes.closed || surface.mesh.empty()) {
+    progress.update(0.9, "fusing colours");
+    fuse_attributes(surface, blocks, seen.maps, scans);
+    fused.mesh = without_unused_vertices(surface.mesh);
+    return fused;
+  }
+  const TriangleMesh open = without_unused_vertices(surface.mesh);
+  const CarvedSpace carved = carved_space(blocks, field, seen.maps, open, progress.part(0.8, 0.95));
+  surface = field_surface(carved.blocks, carved.field);
+  clean(surface, sizes.min_component_percent, fused);
+  fuse_attributes(surface, carved.blocks, seen.maps, scans);
+  fused.mesh = without_unused_vertices(surface.mesh);
+  mark_carved_faces(fused.mesh, open, sizes.voxel);
+  return fused;
 }
 
 }  // namespace drape::meshing

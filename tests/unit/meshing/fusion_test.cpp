@@ -262,6 +262,36 @@ TEST(Fusion, AttributesAreFusedWhereAllScansHaveThem) {
   }
 }
 
+// From above and a little aside: the underside is unseen, the lattices reach past the shape on all sides.
+TEST(Fusion, ClosedCarvesWhatNoScanSawThrough) {
+  const std::vector<Vector3d> from{{0.5, 0, 1}, {-0.5, 0, 1}, {0, 0.5, 1}, {0, -0.5, 1}};
+  LatticeSetup setup;
+  setup.rows = setup.columns = 70;
+  const Scans all = scans_of(test::sphere_field(20), from, setup);
+  const TriangleMesh open = fuse(all).mesh;
+  EXPECT_TRUE(open.filled.empty());
+  EXPECT_GT(mesh_quality(open).boundary_loops, 0U);
+  MeshOptions options;
+  options.closed = true;
+  const TriangleMesh mesh = fuse(all, options).mesh;
+  EXPECT_TRUE(mesh_quality(mesh).closed());
+  // What was seen stays as it is; unseen space counts as inside, as far as the box of what was seen.
+  EXPECT_GT(signed_volume(mesh), 2.0 / 3 * pi * 8000);
+  ASSERT_EQ(mesh.filled.size(), mesh.faces.size());
+  double filled = 0;
+  double scanned = 0;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const Vector3d& p = mesh.vertices[mesh.faces[i][0]];
+    (mesh.filled[i] != 0 ? filled : scanned) += scaled_face_normal(mesh, i).norm() / 2;
+    EXPECT_LT(p.cwiseAbs().maxCoeff(), 20 + 2 * 8 * 0.65);
+    EXPECT_TRUE(mesh.filled[i] != 0 || std::abs(p.norm() - 20) < 2.5) << p.transpose();
+    EXPECT_TRUE(p.z() < 5 || p.norm() > 19) << p.transpose();
+  }
+  EXPECT_GT(filled, 0);
+  // A rim of two voxels round the border counts as scanned.
+  EXPECT_NEAR(scanned, surface_area(open), 0.1 * scanned);
+}
+
 TEST(Fusion, VoxelSizeSetsTheTriangles) {
   const Scans all = scans_of(test::sphere_field(20), six_sides());
   MeshOptions coarse;

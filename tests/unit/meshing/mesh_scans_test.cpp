@@ -230,6 +230,17 @@ TEST(Poisson, NeedsNormals) {
   EXPECT_NE(message.find("normals"), std::string::npos);
 }
 
+TEST(ScaleSpace, FollowsNoisySamplesRoundASphere) {
+  PointCloud cloud = test::sampled_sphere(10, 0.5, 0.05);
+  const MeshResult result = mesh_cloud(cloud, 0.5, with_method(Method::scale_space));
+  expect_sound(result.mesh);
+  EXPECT_GT(surface_area(result.mesh), 0.98 * 4 * pi * 100);
+  EXPECT_LT(test::worst_distance(result.mesh, [](const Eigen::Vector3d& p) { return p.norm() - 10; }),
+            0.1 + 5 * 0.05);
+  for (std::size_t i = 0; i < result.mesh.faces.size(); ++i)
+    EXPECT_GT(scaled_face_normal(result.mesh, i).dot(result.mesh.vertices[result.mesh.faces[i][0]]), 0);
+}
+
 TEST(AdvancingFront, NeedsNoNormals) {
   PointCloud cloud = test::sampled_sphere(10, 0.5);
   cloud.normals.clear();

@@ -13,12 +13,13 @@
 
 namespace drape::meshing {
 
-enum class Method { automatic, fusion, poisson, advancing_front, grid };
+enum class Method { automatic, fusion, poisson, advancing_front, scale_space, grid };
 
 /// Lengths are in point spacings (MeshInput::spacing).
 struct MeshOptions {
   Method method = Method::automatic;
   double fusion_voxel_spacings = 0.65;
+  bool closed = false;
   double merge_voxel_spacings = 2.0;
   double poisson_radius_spacings = 2.0;
   double poisson_distance_spacings = 0.25;
@@ -35,13 +36,19 @@ inline void describe(Binder& b, MeshOptions& o) {
        {"fusion", Method::fusion},
        {"poisson", Method::poisson},
        {"advancing_front", Method::advancing_front},
+       {"scale_space", Method::scale_space},
        {"grid", Method::grid}},
       "fusion: what all scans agree on along their lines of sight, open where none saw the surface; needs to "
       "know from where or in which direction the scans looked; poisson: smooths over noise and small gaps; "
-      "advancing_front: through the merged samples; grid: each scan's own lattice, exact to its samples, "
+      "advancing_front: through the merged samples; scale_space: the same, found on smoothed samples; grid: "
+      "each scan's own lattice, exact to its samples, "
       "scans "
       "are not joined (for a single scan); auto: fusion where every scan allows for it, else poisson, or "
       "advancing_front without normals");
+  b.flag(
+      "closed", o.closed,
+      "fusion: a closed mesh round all that no scan saw to be empty, instead of holes; where much is unseen, "
+      "much is invented (marked as filled)");
   b.number("fusion_voxel_spacings", o.fusion_voxel_spacings, {0.1, 100},
            "fusion: the voxels' size, which is about the mesh's edges; time and memory grow with its inverse "
            "square");
@@ -88,6 +95,8 @@ struct MeshResult {
 ///
 /// fusion: Curless and Levoy 1996 on denoised range grids. About 2 us a sample at the default voxel. Scans
 /// without a grid are triangulated as their sight sees them (8 us a sample).
+///
+/// scale_space: Digne et al. 2011 (CGAL), through the merged samples.
 ///
 /// poisson: Kazhdan, Bolitho and Hoppe 2006, on a Delaunay refinement of the samples, contoured by restricted
 /// Delaunay triangulation (CGAL). Needs normals. About 20 us a merged sample plus 100 us a vertex of the
