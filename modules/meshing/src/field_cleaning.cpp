@@ -36,14 +36,16 @@ std::vector<Wedge> border_wedges(const TriangleMesh& mesh) {
   return wedges;
 }
 
-// The faces of all but the longest of the fans at one vertex. A fan begins with a wedge that follows no other.
+// The faces of all but the longest of the fans at one vertex. A fan begins with a wedge that follows no
+// other.
 void add_lesser_fans(std::span<const Wedge> wedges, std::vector<std::uint32_t>& faces) {
   const auto next = [&](const Wedge& wedge) {
     return std::find_if(wedges.begin(), wedges.end(), [&](const Wedge& w) { return w.from == wedge.to; });
   };
   std::vector<std::vector<std::uint32_t>> fans;
   for (const Wedge& first : wedges) {
-    if (std::any_of(wedges.begin(), wedges.end(), [&](const Wedge& w) { return w.to == first.from; })) continue;
+    if (std::any_of(wedges.begin(), wedges.end(), [&](const Wedge& w) { return w.to == first.from; }))
+      continue;
     fans.push_back({first.face});
     for (auto w = next(first); w != wedges.end(); w = next(*w)) fans.back().push_back(w->face);
   }
@@ -62,7 +64,8 @@ Cleaned without_touching_border_fans(TriangleMesh mesh) {
     const std::vector<Wedge> wedges = border_wedges(cleaned.mesh);
     std::vector<std::uint32_t> dropped;
     for (auto begin = wedges.begin(); begin != wedges.end();) {
-      const auto end = std::find_if(begin, wedges.end(), [&](const Wedge& w) { return w.vertex != begin->vertex; });
+      const auto end =
+          std::find_if(begin, wedges.end(), [&](const Wedge& w) { return w.vertex != begin->vertex; });
       const std::size_t before = dropped.size();
       add_lesser_fans({begin, end}, dropped);
       cleaned.removed += dropped.size() > before ? 1 : 0;

@@ -22,8 +22,9 @@ TriangleMesh scale_space_mesh(const PointCloud& samples, double radius, double l
   }
   constexpr int smoothings = 4;
   CGAL::Scale_space_surface_reconstruction_3<Kernel> reconstruction(points.begin(), points.end());
-  reconstruction.increase_scale(smoothings,
-                                scale_space::Weighted_PCA_smoother<Kernel, CGAL::Default_diagonalize_traits<double, 3>, CGAL::Sequential_tag>(radius * radius));
+  reconstruction.increase_scale(
+      smoothings, scale_space::Weighted_PCA_smoother<Kernel, CGAL::Default_diagonalize_traits<double, 3>,
+                                                     CGAL::Sequential_tag>(radius * radius));
   reconstruction.reconstruct_surface(scale_space::Advancing_front_mesher<Kernel>(longest_edge));
   TriangleMesh mesh;
   mesh.vertices = samples.positions;

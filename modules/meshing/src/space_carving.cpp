@@ -31,7 +31,8 @@ std::vector<std::uint8_t> covered_pixels(const DepthMap& map, const TriangleMesh
   return covered;
 }
 
-bool seen_empty(const BlockSight& sight, const std::vector<std::uint8_t>& covered, const Eigen::Vector3f& at) {
+bool seen_empty(const BlockSight& sight, const std::vector<std::uint8_t>& covered,
+                const Eigen::Vector3f& at) {
   const DepthMap& map = sight.map();
   const Eigen::Vector3f picture = sight.picture_of(at);
   if (!(picture.x() >= 0 && picture.y() >= 0 && picture.x() < static_cast<float>(map.columns - 1) &&
@@ -77,7 +78,8 @@ FusionBlocks blocks_of_box(const FusionBlocks& seen, const TriangleMesh& open) {
 CarvedSpace carved_space(const FusionBlocks& blocks, const FusedField& field, std::span<const DepthMap> maps,
                          const TriangleMesh& open, const Progress& progress) {
   std::vector<std::vector<std::uint8_t>> covered(maps.size());
-  parallel_for(maps.size(), 1, [&](std::size_t m, std::size_t) { covered[m] = covered_pixels(maps[m], open); });
+  parallel_for(maps.size(), 1,
+               [&](std::size_t m, std::size_t) { covered[m] = covered_pixels(maps[m], open); });
   CarvedSpace carved{blocks_of_box(blocks, open), {}};
   carved.field.distances.assign(carved.blocks.size() * VoxelLattice::block_voxels, FusedField::farthest);
   const Eigen::Vector3i low = BlockKey(carved.blocks.keys.front()).place();
@@ -90,9 +92,11 @@ CarvedSpace carved_space(const FusionBlocks& blocks, const FusedField& field, st
     for (const DepthMap& map : maps) sights.emplace_back(map, blocks.lattice, carved.blocks.corner(b));
     const std::uint32_t known = blocks.find(carved.blocks.keys[b]);
     for (int i = 0; i < VoxelLattice::block_voxels; ++i) {
-      const std::int16_t fused =
-          known == FusionBlocks::none ? FusedField::unknown : field.of_block(known)[static_cast<std::size_t>(i)];
-      std::int16_t& value = carved.field.distances[b * VoxelLattice::block_voxels + static_cast<std::size_t>(i)];
+      const std::int16_t fused = known == FusionBlocks::none
+                                     ? FusedField::unknown
+                                     : field.of_block(known)[static_cast<std::size_t>(i)];
+      std::int16_t& value =
+          carved.field.distances[b * VoxelLattice::block_voxels + static_cast<std::size_t>(i)];
       if (fused != FusedField::unknown) {
         value = FusedField::is_guess(fused) ? static_cast<std::int16_t>(fused + 1) : fused;
         continue;

@@ -17,10 +17,10 @@ struct CarvedSpace {
 };
 
 /// The fused field where it is known; elsewhere a voxel is outside if a scan saw through it to a surface
-/// behind, or saw nothing along its line of sight, and inside if none did (Curless and Levoy 1996, section 4).
-/// No return is evidence only within the picture of the scan's samples, and where no vertex of `open` is seen:
-/// dark and grazing surfaces return nothing too. What lies outside of the box of `open` is outside. Error
-/// {input} where that box has more than four million blocks of voxels.
+/// behind, or saw nothing along its line of sight, and inside if none did (Curless and Levoy 1996, section
+/// 4). No return is evidence only within the picture of the scan's samples, and where no vertex of `open` is
+/// seen: dark and grazing surfaces return nothing too. What lies outside of the box of `open` is outside.
+/// Error {input} where that box has more than four million blocks of voxels.
 [[nodiscard]] CarvedSpace carved_space(const FusionBlocks& blocks, const FusedField& field,
                                        std::span<const DepthMap> maps, const TriangleMesh& open,
                                        const Progress& progress);
