@@ -1,6 +1,7 @@
 #include "grabcut.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
 namespace drape::segmentation {
@@ -26,6 +27,8 @@ Image8 grabcut(const Image8& rgb, const Image8& guess, const Hints& hints, std::
       if (hints.click && std::abs(x - (*hints.click)[0]) <= click_radius &&
           std::abs(y - (*hints.click)[1]) <= click_radius)
         value = cv::GC_FGD;
+      if (!hints.scribbles.empty() && hints.scribbles.at(x, y) != stencil::unknown)
+        value = hints.scribbles.at(x, y) == stencil::object ? cv::GC_FGD : cv::GC_BGD;
       mask.at<std::uint8_t>(y, x) = value;
       ++(value == cv::GC_PR_FGD || value == cv::GC_FGD ? objects : others);
     }

@@ -5,21 +5,19 @@
 #include <opencv2/core.hpp>
 #include <set>
 
+#include "clusters.hpp"
 #include "drape/base/random.hpp"
+#include "pixel_features.hpp"
 
 namespace drape::segmentation {
 namespace {
 
-constexpr double explained_share = 0.95;
-constexpr int most_automatic_clusters = 16;
 constexpr int sample_pixels = 4000;  // enough to choose their number
-constexpr int feature_count = 5;
 
-// Rows of L, a, b, x, y. Position runs over 100 along the longer side at weight 1, as L does from black to
-// white.
+// Rows of L, a, b, x, y.
 cv::Mat features_of(const ImageF& lab, double position_weight) {
-  cv::Mat features(lab.width() * lab.height(), feature_count, CV_32F);
-  const auto scale = static_cast<float>(100.0 * position_weight / std::max(lab.width(), lab.height()));
+  cv::Mat features(lab.width() * lab.height(), color_position_count, CV_32F);
+  const auto scale = static_cast<float>(position_scale(lab, position_weight));
   for (int y = 0; y < lab.height(); ++y)
     for (int x = 0; x < lab.width(); ++x) {
       auto* row = features.ptr<float>(y * lab.width() + x);
@@ -31,10 +29,10 @@ cv::Mat features_of(const ImageF& lab, double position_weight) {
 }
 
 int distinct_rows(const cv::Mat& features, int enough) {
-  std::set<std::array<float, feature_count>> seen;
+  std::set<std::array<float, color_position_count>> seen;
   for (int i = 0; i < features.rows && static_cast<int>(seen.size()) < enough; ++i) {
-    std::array<float, feature_count> row{};
-    std::copy_n(features.ptr<float>(i), feature_count, row.begin());
+    std::array<float, color_position_count> row{};
+    std::copy_n(features.ptr<float>(i), color_position_count, row.begin());
     seen.insert(row);
   }
   return static_cast<int>(seen.size());
@@ -60,7 +58,7 @@ double scatter(const cv::Mat& features) {
 
 int automatic_count(const cv::Mat& features, std::uint64_t seed) {
   Rng rng(seed);
-  cv::Mat sample(std::min(features.rows, sample_pixels), feature_count, CV_32F);
+  cv::Mat sample(std::min(features.rows, sample_pixels), color_position_count, CV_32F);
   for (int i = 0; i < sample.rows; ++i) {
     const auto chosen = rng.below(static_cast<std::uint64_t>(features.rows));
     features.row(features.rows <= sample_pixels ? i : static_cast<int>(chosen)).copyTo(sample.row(i));

@@ -1,18 +1,10 @@
 // How much each pixel stands out from what surrounds the object.
 #pragma once
 
-#include <array>
-#include <optional>
-
+#include "hints.hpp"
 #include "lab_image.hpp"
 
 namespace drape::segmentation {
-
-/// What the user said, in pixels of the picture at hand; clipped to it.
-struct Hints {
-  std::optional<std::array<int, 4>> box;    // left, top, right, bottom; the last two exclusive
-  std::optional<std::array<int, 2>> click;  // x, y
-};
 
 /// 0 (background) .. 1 (object) per pixel, constant over patches of like colour; all 0 if the picture has no
 /// contrast. Background is what the border of the picture (or of the box) hangs together with: robust

@@ -14,11 +14,16 @@
 namespace drape::segmentation {
 
 enum class Method {
-  automatic,  // the given mask or alpha if there is one, else grabcut
-  kmeans,     // segments by k-means; the stencil is a union of them
-  grabcut,    // the same, then region colours and a minimum cut for the outline
-  mask,       // the given mask, its unknown pixels kept
-  alpha,      // the photo's own alpha channel
+  automatic,      // the given mask or alpha if there is one, else background where there is a backdrop, else
+                  // grabcut
+  kmeans,         // segments by k-means; the stencil is a union of them
+  divisive,       // the same by splitting clusters,
+  agglomerative,  // by merging them,
+  em,             // and by a mixture of Gaussians of colour, texture and position
+  grabcut,        // segments by k-means; region colours and a minimum cut for the outline
+  background,     // what differs from an even backdrop, or from a photo of the empty scene
+  mask,           // the given mask, its unknown pixels kept
+  alpha,          // the photo's own alpha channel
 };
 
 enum class Pick {
@@ -44,15 +49,24 @@ struct SegmentOptions {
 };
 
 inline void describe(Binder& b, SegmentOptions& o) {
-  b.choice("method", o.method,
-           {{"auto", Method::automatic},
-            {"kmeans", Method::kmeans},
-            {"grabcut", Method::grabcut},
-            {"mask", Method::mask},
-            {"alpha", Method::alpha}},
-           "how the object is found; auto: the photo's mask or alpha if it has one, else grabcut");
+  b.choice(
+      "method", o.method,
+      {{"auto", Method::automatic},
+       {"kmeans", Method::kmeans},
+       {"divisive", Method::divisive},
+       {"agglomerative", Method::agglomerative},
+       {"em", Method::em},
+       {"grabcut", Method::grabcut},
+       {"background", Method::background},
+       {"mask", Method::mask},
+       {"alpha", Method::alpha}},
+      "how the object is found: as a union of segments by colour and position (kmeans, divisive, "
+      "agglomerative) or colour, texture and position (em); by a minimum cut (grabcut); by its difference "
+      "from an even backdrop or a photo of the empty scene (background); as given (mask, alpha). auto: the "
+      "photo's mask or alpha if it has one, else background where the border is one backdrop, else grabcut");
   b.number("clusters", o.clusters, {1, 64},
-           "clusters of colour and position; auto: the fewest that explain 95 % of the photo's variance");
+           "clusters; auto: the fewest that explain 95 % of the photo's variance; of em, those of the least "
+           "description length");
   b.number("position_weight", o.position_weight, {0, 10},
            "1: across the photo counts as much as black against white; 0: colour alone");
   b.number("max_side_px", o.max_side_px, {16, 4096},
@@ -79,6 +93,8 @@ inline void describe(Binder& b, SegmentOptions& o) {
 struct PhotoRegion {
   std::optional<std::array<double, 4>> box_px;    // x, y, width, height round the object, some margin allowed
   std::optional<std::array<double, 2>> click_px;  // a point inside the object
+  Image8 scribbles{};    // as large as the photo: stencil::object and background where marked, else unknown
+  Image8 empty_scene{};  // RGB, as large as the photo: the same view without the object
 };
 
 struct SegmentInfo {
@@ -107,9 +123,11 @@ struct Segmentation {
 /// an empty stencil with confidence 0. Error{input}: an empty photo, a mask of another size; Error{config}: a
 /// method or pick that lacks its mask, box, click or indices, or has them outside the photo.
 ///
-/// K-means (thesis, Algorithm 3) on Lab colour and position, seeded by k-means++ (Arthur and
-/// Vassilvitskii 2007); its connected parts are the segments. The automatic pick follows the robust
-/// background detection of Zhu et al. (CVPR 2014); grabcut is that of Rother et al. (SIGGRAPH 2004).
+/// Clusters are those of the thesis (Algorithms 1 to 3: divisive and agglomerative with Ward's distance on
+/// superpixels, k-means seeded by k-means++ of Arthur and Vassilvitskii 2007), or of expectation-maximisation
+/// on the eight features of Carson et al. (PAMI 2002); their connected parts are the segments. The automatic
+/// pick follows the robust background detection of Zhu et al. (CVPR 2014); grabcut is that of Rother et al.
+/// (SIGGRAPH 2004).
 [[nodiscard]] Segmentation segment_photo(const Image8& rgb, const Image8& mask_or_alpha,
                                          const PhotoRegion& region, const SegmentOptions& options,
                                          std::uint64_t seed, const Progress& progress = {});
