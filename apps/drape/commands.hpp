@@ -77,6 +77,20 @@ struct SimulateArguments {
 };
 void simulate_command(const SimulateArguments& arguments, const std::atomic<bool>& stop);
 
+struct SegmentArguments {
+  std::filesystem::path photo;
+  std::string method;         // as segment.method; empty: its default
+  std::vector<double> box;    // x, y, width, height; or empty
+  std::vector<double> click;  // x, y; or empty
+  std::filesystem::path mask;
+  std::filesystem::path scribbles;
+  std::filesystem::path background;
+  std::filesystem::path output;  // empty: <photo>-segments beside the photo
+  ProgressMode progress = ProgressMode::automatic;
+};
+/// Finds the object in one photo: segments.png, segments.json and stencil.png.
+void segment_command(const SegmentArguments& arguments, const std::atomic<bool>& stop);
+
 /// drape, its compiler, and the libraries: name and version.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> versions();
 

@@ -73,6 +73,7 @@ struct CommandLine {
   std::filesystem::path reference = "config/REFERENCE.md";
   bool reference_check = false;
   SimulateArguments simulate;
+  SegmentArguments segment;
 
   CommandLine() {
     app.set_version_flag("--version", version_text(), "The versions of drape and its libraries");
@@ -90,6 +91,7 @@ struct CommandLine {
     add_convert();
     add_reference();
     add_simulate();
+    add_segment();
     app.footer(
         "Examples:\n  drape new scans/*.ply --photo front.jpg -o statue.yaml\n  drape run statue.yaml\n"
         "Each command has its own --help.");
@@ -235,6 +237,38 @@ struct CommandLine {
         if (reference_command(reference, reference_check)) return 0;
         throw input_error("{}: is stale; make it again with: drape reference {}", reference.string(),
                           reference.string());
+      };
+    });
+  }
+
+  void add_segment() {
+    CLI::App* sub = command("segment", "Find the object in one photo: segments and stencil, without a mesh",
+                            "drape segment photo.jpg --box 120,80,400,600 -o /tmp/segments");
+    sub->add_option("photo", segment.photo, "The photo")->required()->type_name("PHOTO");
+    sub->add_option("--method", segment.method, "As segment.method of a configuration; default: auto")
+        ->type_name("METHOD");
+    sub->add_option("--box", segment.box, "A box around the object, in pixels")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,WIDTH,HEIGHT");
+    sub->add_option("--click", segment.click, "A point inside the object, in pixels")
+        ->delimiter(',')
+        ->expected(2)
+        ->type_name("X,Y");
+    sub->add_option("--mask", segment.mask, "White where the object is")->type_name("FILE");
+    sub->add_option("--scribbles", segment.scribbles,
+                    "White strokes on the object, black on the rest, on grey")
+        ->type_name("FILE");
+    sub->add_option("--background", segment.background, "A photo of the same view without the object")
+        ->type_name("FILE");
+    sub->add_option("-o,--output", segment.output, "Folder to write; default: PHOTO-segments beside it")
+        ->type_name("DIR");
+    add_progress(sub);
+    sub->callback([this] {
+      action = [this] {
+        segment.progress = quiet ? ProgressMode::none : progress;
+        segment_command(segment, stop_requested);
+        return 0;
       };
     });
   }

@@ -1,5 +1,6 @@
 // Intersection over union of stencils with hand-made masks of nine photos: unaided, from a box, from a click.
-// Usage: segmentation_quality [option=value ...], options as in the `segment` section of a configuration.
+// Usage: segmentation_quality [methods=kmeans,em] [only=ROW] [save=FOLDER] [option=value ...], options as in
+// the `segment` section of a configuration.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -35,16 +36,29 @@ Image8 read(const fs::path& file, int mode) {
 struct Case {
   std::string name;
   Image8 rgb;
-  Image8 truth;  // 255 object, 0 background, 128 ignored
+  Image8 truth;      // 255 object, 0 background, 128 ignored
+  Image8 scribbles;  // stencil::object, background or unknown
   std::array<double, 4> box{};
   std::array<double, 2> click{};
 };
+
+// The data's marks are a palette's: pale yellow object, red background, black none.
+Image8 read_scribbles(const fs::path& file) {
+  const Image8 marks = read(file, cv::IMREAD_COLOR);
+  Image8 scribbles(marks.width(), marks.height(), 1, stencil::unknown);
+  for (int y = 0; y < marks.height(); ++y)
+    for (int x = 0; x < marks.width(); ++x)
+      if (marks.at(x, y, 0) > 127)
+        scribbles.at(x, y) = marks.at(x, y, 1) > 127 ? stencil::object : stencil::background;
+  return scribbles;
+}
 
 Case load(const fs::path& photo) {
   Case c;
   c.name = photo.stem().string();
   c.rgb = read(photo, cv::IMREAD_COLOR);
   c.truth = read(photo.parent_path() / (c.name + "_gt.png"), cv::IMREAD_GRAYSCALE);
+  c.scribbles = read_scribbles(photo.parent_path() / (c.name + "_scribble1.png"));
   cv::Mat object(c.truth.height(), c.truth.width(), CV_8U, c.truth.data().data());
   object = object == 255;
   const cv::Rect box = cv::boundingRect(object);
@@ -95,6 +109,10 @@ void measure(const std::vector<Case>& cases, const SegmentOptions& options, cons
       {"click",
        [](const Case& c) {
          return PhotoRegion{{}, c.click};
+       }},
+      {"scribbles",
+       [](const Case& c) {
+         return PhotoRegion{{}, {}, c.scribbles};
        }},
   };
   for (const Row& row : rows) {
@@ -150,10 +168,12 @@ int main(int count, char** arguments) {
   SegmentOptions options;
   std::string only;
   std::string save_folder;
+  std::string methods;
   for (int i = 1; i < count; ++i) {
     const std::string argument = arguments[i];
     const std::size_t equals = argument.find('=');
     if (argument.substr(0, equals) == "only") only = argument.substr(equals + 1);
+    if (argument.substr(0, equals) == "methods") methods = argument.substr(equals + 1);
     if (argument.substr(0, equals) == "save") save_folder = argument.substr(equals + 1);
     for (const Option& option : options_of(options))
       if (option.name == argument.substr(0, equals)) {
@@ -171,7 +191,14 @@ int main(int count, char** arguments) {
     if (entry.path().extension() != ".png") photos.push_back(entry.path());
   std::sort(photos.begin(), photos.end());
   for (const fs::path& photo : photos) cases.push_back(load(photo));
-  for (const auto& [method, name] : {std::pair{Method::kmeans, "kmeans"}, {Method::grabcut, "grabcut"}}) {
+  for (const auto& [method, name] : {std::pair{Method::automatic, "auto"},
+                                     {Method::kmeans, "kmeans"},
+                                     {Method::divisive, "divisive"},
+                                     {Method::agglomerative, "agglomerative"},
+                                     {Method::em, "em"},
+                                     {Method::grabcut, "grabcut"},
+                                     {Method::background, "background"}}) {
+    if (!methods.empty() && methods.find(name) == std::string::npos) continue;
     options.method = method;
     measure(cases, options, name, only, save_folder);
   }

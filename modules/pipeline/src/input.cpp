@@ -171,6 +171,8 @@ PhotoInput read_photo_input(const ConfigNode& node, const std::string& path, con
   if (photo.image.empty() && reader.find("image") == nullptr)
     problems.wrong.push_back(fmt::format("{}: {}: has no image", node.where.text(), path));
   photo.mask = reader.file("mask", folder);
+  photo.scribbles = reader.file("scribbles", folder);
+  photo.background = reader.file("background", folder);
   if (const auto box = reader.numbers("box_px", 4, 4); !box.empty()) {
     if (box[2] > 0 && box[3] > 0)
       photo.box_px = {box[0], box[1], box[2], box[3]};
@@ -356,6 +358,10 @@ const std::vector<InputKey>& photo_keys() {
       {"image", "the photo"},
       {"mask",
        "a picture of the photo's size: white where the object is, black elsewhere, grey (128) unknown"},
+      {"scribbles",
+       "a picture of the photo's size: white strokes on the object, black on the background, grey (128) "
+       "elsewhere"},
+      {"background", "a photo of the same view without the object, by the same camera"},
       {"box_px", "x, y, width, height of a box around the object, in upright pixels"},
       {"click_px", "x, y of a point inside the object, in upright pixels"},
       {"camera", "what is known of the camera: focal_px or K, distortion"},

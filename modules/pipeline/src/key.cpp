@@ -43,6 +43,8 @@ void add_photo_part(Parts& parts, const std::string& part, const PhotoInput& pho
   if (part == "photos") parts.add_file(name + ".image", photo.image);
   if (part == "photo_regions") {
     parts.add_file(name + ".mask", photo.mask);
+    parts.add_file(name + ".scribbles", photo.scribbles);
+    parts.add_file(name + ".background", photo.background);
     if (photo.box_px) parts.add_numbers(name + ".box_px", *photo.box_px);
     if (photo.click_px) parts.add_numbers(name + ".click_px", *photo.click_px);
   }

@@ -11,12 +11,12 @@ namespace drape::segmentation {
 namespace {
 
 constexpr int term_count = 6;
-constexpr double border_width = 0.03;     // of the shorter side
+constexpr double border_width = 0.03;  // of the shorter side
 constexpr int robust_rounds = 12;
 constexpr int growing_rounds = 3;
-constexpr float least_difference = 6;     // Lab units, that an object differs from its backdrop by
-constexpr float noise_multiple = 5;       // ... or so many deviations of the backdrop
-constexpr float shadow_weight = 0.6F;     // of a backdrop that is only darker: an object's shadow on it
+constexpr float least_difference = 6;  // Lab units, that an object differs from its backdrop by
+constexpr float noise_multiple = 5;    // ... or so many deviations of the backdrop
+constexpr float shadow_weight = 0.6F;  // of a backdrop that is only darker: an object's shadow on it
 
 using Terms = Eigen::Matrix<double, 1, term_count>;
 using Surface = Eigen::Matrix<double, term_count, 3>;  // L, a, b of the position
@@ -65,8 +65,8 @@ Surface fitted(const Surface& before, bool first, float scale, const ImageF& lab
       const double weight = 1 / (1 + r * r);
       const Terms row = terms(x, y, lab);
       normal += weight * row.transpose() * row;
-      right += weight * row.transpose() *
-               Eigen::RowVector3d(lab.at(x, y, 0), lab.at(x, y, 1), lab.at(x, y, 2));
+      right +=
+          weight * row.transpose() * Eigen::RowVector3d(lab.at(x, y, 0), lab.at(x, y, 1), lab.at(x, y, 2));
     }
   return normal.ldlt().solve(right);
 }

@@ -6,13 +6,13 @@
 namespace drape::segmentation {
 
 struct Backdrop {
-  ImageF difference;       // per pixel: how far from the backdrop, 1 where object and backdrop part
+  ImageF difference;        // per pixel: how far from the backdrop, 1 where object and backdrop part
   double border_share = 0;  // of the picture's border that is backdrop, 0..1
 };
 
 /// A sheet of paper, a cloth or a black room, evenly lit or falling off: the colours of the picture's border
-/// are fitted by a quadratic of the position, then those of all that hangs together with it. Robust: an object
-/// or a clamp may reach over the border. A border of several colours gives a small border_share.
+/// are fitted by a quadratic of the position, then those of all that hangs together with it. Robust: an
+/// object or a clamp may reach over the border. A border of several colours gives a small border_share.
 [[nodiscard]] Backdrop smooth_backdrop(const ImageF& lab);
 
 /// The same scene without the object, of the same size, by the same camera; its exposure may differ.

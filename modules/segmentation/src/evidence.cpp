@@ -63,7 +63,8 @@ Evidence evidence_of_stencil(const Image8& shape) {
 }
 
 Evidence by_backdrop(const ImageF& lab, const ImageF& empty_scene, const Hints& hints) {
-  const Backdrop backdrop = empty_scene.empty() ? smooth_backdrop(lab) : photographed_backdrop(lab, empty_scene);
+  const Backdrop backdrop =
+      empty_scene.empty() ? smooth_backdrop(lab) : photographed_backdrop(lab, empty_scene);
   Evidence evidence;
   evidence.value = backdrop.difference;
   for (float& value : evidence.value.data()) value = 1 - std::exp2(-value);  // one half at the limit
@@ -117,7 +118,8 @@ Evidence by_scribbles(const Image8& rgb, const ImageF& lab, const Hints& hints, 
   return evidence_of_stencil(grabcut(rgb, guess, hints, seed));
 }
 
-// GrabCut from circles of several sizes round the click; of the cuts the one whose outline lies on edges most.
+// GrabCut from circles of several sizes round the click; of the cuts the one whose outline lies on edges
+// most.
 Image8 cut_round_click(const Image8& rgb, const ImageF& lab, const Hints& hints, std::uint64_t seed) {
   const auto [cx, cy] = *hints.click;
   const int side = std::min(rgb.width(), rgb.height());
@@ -129,8 +131,8 @@ Image8 cut_round_click(const Image8& rgb, const ImageF& lab, const Hints& hints,
     Hints round = hints;
     round.box = {std::max(0, cx - reach), std::max(0, cy - reach), std::min(rgb.width(), cx + reach + 1),
                  std::min(rgb.height(), cy + reach + 1)};
-    const Image8 guess =
-        elliptic_guess(rgb.width(), rgb.height(), {cx - radius, cy - radius, cx + radius + 1, cy + radius + 1});
+    const Image8 guess = elliptic_guess(rgb.width(), rgb.height(),
+                                        {cx - radius, cy - radius, cx + radius + 1, cy + radius + 1});
     const Image8 cut = without_islands(grabcut(rgb, guess, round, item_seed(seed, i)), 1, hints.click);
     const double score = edge_share(cut, lab);
     if (score <= best_score) continue;

@@ -46,7 +46,8 @@ cv::Mat sampled(const cv::Mat& features, Rng& rng) {
   if (features.rows <= sample_pixels) return features.clone();
   cv::Mat sample(sample_pixels, features.cols, CV_64F);
   for (int i = 0; i < sample.rows; ++i)
-    features.row(static_cast<int>(rng.below(static_cast<std::uint64_t>(features.rows)))).copyTo(sample.row(i));
+    features.row(static_cast<int>(rng.below(static_cast<std::uint64_t>(features.rows))))
+        .copyTo(sample.row(i));
   return sample;
 }
 
@@ -91,9 +92,13 @@ Labels mixture_clusters(const ImageF& lab, std::optional<int> clusters, double p
     Mixture other = fitted(sample, k, item_seed(seed, 1));
     if (other.description_length < best.description_length) best = std::move(other);
   }
-  for (int i = 0; i < features.rows; ++i)
+  cv::Mat probabilities;
+  best.model->predict(features, probabilities);
+  for (int i = 0; i < features.rows; ++i) {
+    const auto* row = probabilities.ptr<double>(i);
     labels.data()[static_cast<std::size_t>(i)] =
-        static_cast<std::int32_t>(best.model->predict2(features.row(i), cv::noArray())[1]);
+        static_cast<std::int32_t>(std::max_element(row, row + probabilities.cols) - row);
+  }
   return labels;
 }
 

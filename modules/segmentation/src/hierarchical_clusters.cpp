@@ -26,11 +26,14 @@ double ward(double n1, const Row& mean1, double n2, const Row& mean2) {
 
 double total_scatter(const Patches& p) {
   const Row mean = (p.pixels.transpose() * p.mean) / p.pixels.sum();
-  return p.scatter_within + ((p.mean.rowwise() - mean).rowwise().squaredNorm().array() * p.pixels.array()).sum();
+  return p.scatter_within +
+         ((p.mean.rowwise() - mean).rowwise().squaredNorm().array() * p.pixels.array()).sum();
 }
 
 // The error that an automatic number of clusters may leave.
-double allowed_scatter(const Patches& p) { return (1 - explained_share) * total_scatter(p); }
+double allowed_scatter(const Patches& p) {
+  return (1 - explained_share) * total_scatter(p);
+}
 
 struct Group {
   std::vector<Index> members;
@@ -111,9 +114,8 @@ Labels divisive_clusters(const ImageF& lab, std::optional<int> clusters, double 
   groups.emplace_back(std::move(all), p);
   while (static_cast<int>(groups.size()) < clusters.value_or(most_automatic_clusters)) {
     if (!clusters && scatter <= allowed_scatter(p)) break;
-    const auto widest = std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) {
-      return a.apart < b.apart;
-    });
+    const auto widest = std::max_element(groups.begin(), groups.end(),
+                                         [](const auto& a, const auto& b) { return a.apart < b.apart; });
     if (widest->apart <= 0) break;  // fewer colours than clusters asked for
     scatter -= widest->apart;
     std::pair<Group, Group> parts = std::move(widest->parts);
@@ -212,8 +214,8 @@ Labels agglomerative_clusters(const ImageF& lab, std::optional<int> clusters, do
   const double allowed = allowed_scatter(p);
   for (Index count = p.pixels.size(); count > 1; --count) {
     const double distance = groups.least_distance();
-    const bool enough = clusters ? count <= *clusters
-                                 : count <= most_automatic_clusters && scatter + distance > allowed;
+    const bool enough =
+        clusters ? count <= *clusters : count <= most_automatic_clusters && scatter + distance > allowed;
     if (enough && distance > 0) break;
     scatter += distance;
     groups.merge_closest();

@@ -17,9 +17,9 @@ inline constexpr int color_position_count = 5;
 
 /// Superpixels with the mean features of their pixels: what clustering with a cost beyond linear works on.
 struct Patches {
-  Labels labels;            // 0 .. n-1 per pixel
-  Eigen::MatrixXd mean;     // n x color_position_count
-  Eigen::VectorXd pixels;   // n
+  Labels labels;              // 0 .. n-1 per pixel
+  Eigen::MatrixXd mean;       // n x color_position_count
+  Eigen::VectorXd pixels;     // n
   double scatter_within = 0;  // squared distances of the pixels to their patches' means, summed
 };
 

@@ -61,9 +61,10 @@ void check_scribbles(const Image8& rgb, const Image8& scribbles) {
     return std::find(scribbles.data().begin(), scribbles.data().end(), kind) != scribbles.data().end();
   };
   if (!holds(stencil::object) || !holds(stencil::background))
-    throw input_error("the scribbles mark {}; they must mark some of the object (white) and some of the "
-                      "background (black), on grey",
-                      holds(stencil::object) ? "no background" : "no object");
+    throw input_error(
+        "the scribbles mark {}; they must mark some of the object (white) and some of the "
+        "background (black), on grey",
+        holds(stencil::object) ? "no background" : "no object");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ void check(const Image8& rgb, const Image8& mask, const PhotoRegion& region, con
 /// The region in pixels of `small`, which is `photo` reduced.
 [[nodiscard]] Hints hints_of(const PhotoRegion& region, const Image8& photo, const Image8& small);
 
-[[nodiscard]] std::optional<std::array<int, 2>> pixel_of_click(const PhotoRegion& region, const Image8& photo);
+[[nodiscard]] std::optional<std::array<int, 2>> pixel_of_click(const PhotoRegion& region,
+                                                               const Image8& photo);
 
 }  // namespace drape::segmentation

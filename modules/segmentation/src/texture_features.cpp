@@ -10,10 +10,10 @@
 namespace drape::segmentation {
 namespace {
 
-constexpr int scale_count = 7;            // sigma = 0.5, 1, ... 3.5 pixels
-constexpr int direction_count = 8;        // over half a turn; the other half is the same with the sign reversed
-constexpr float settled_change = 0.02F;   // of the polarity from one scale to the next
-constexpr double gradient_unit = 0.01;    // brings L 0..100 to 0..1
+constexpr int scale_count = 7;      // sigma = 0.5, 1, ... 3.5 pixels
+constexpr int direction_count = 8;  // over half a turn; the other half is the same with the sign reversed
+constexpr float settled_change = 0.02F;  // of the polarity from one scale to the next
+constexpr double gradient_unit = 0.01;   // brings L 0..100 to 0..1
 
 cv::Mat blurred(const cv::Mat& image, double sigma) {
   cv::Mat out;
@@ -43,7 +43,9 @@ struct Moments {
   cv::Mat yy;
 
   Moments(const Gradient& g, double sigma)
-      : xx(blurred(g.x.mul(g.x), sigma)), xy(blurred(g.x.mul(g.y), sigma)), yy(blurred(g.y.mul(g.y), sigma)) {}
+      : xx(blurred(g.x.mul(g.x), sigma)),
+        xy(blurred(g.x.mul(g.y), sigma)),
+        yy(blurred(g.y.mul(g.y), sigma)) {}
 
   [[nodiscard]] float direction(int x, int y) const {
     return 0.5F * std::atan2(2 * xy.at<float>(y, x), xx.at<float>(y, x) - yy.at<float>(y, x));
@@ -71,7 +73,8 @@ cv::Mat polarity(const Gradient& g, const Moments& moments, double sigma) {
   for (int y = 0; y < out.rows; ++y)
     for (int x = 0; x < out.cols; ++x) {
       const double turn = moments.direction(x, y) / std::numbers::pi * direction_count;
-      const int d = (static_cast<int>(std::lround(turn)) % direction_count + direction_count) % direction_count;
+      const int d =
+          (static_cast<int>(std::lround(turn)) % direction_count + direction_count) % direction_count;
       out.at<float>(y, x) = directed[static_cast<std::size_t>(d)].at<float>(y, x);
     }
   return blurred(out, 2 * sigma);

@@ -1,11 +1,10 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "drape/base/error.hpp"
 #include "drape/base/random.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/segmentation/segment_photo.hpp"
+#include "drape/stages/segment_files.hpp"
 #include "rows.hpp"
 #include "segments_json.hpp"
 
@@ -20,24 +19,24 @@ Image8 given_mask(const std::filesystem::path& file, const Image8& rgb) {
   return mask;
 }
 
+segmentation::PhotoRegion region_of(const pipeline::PhotoInput& input, const Image8& rgb) {
+  segmentation::PhotoRegion region{input.box_px, input.click_px};
+  if (!input.scribbles.empty())
+    region.scribbles = io::read_stencil(input.scribbles, rgb.width(), rgb.height());
+  if (!input.background.empty()) region.empty_scene = io::read_photo(input.background).rgb;
+  return region;
+}
+
 void run(const segmentation::SegmentOptions& options, pipeline::StageRun& run) {
   const auto& photos = run.input().photos;
   for (std::size_t i = 0; i < photos.size(); ++i) {
-    const pipeline::PhotoInput& input = photos[i];
-    const std::string name = input.image.filename().string();
     const Progress progress =
         run.progress().part(static_cast<double>(i) / static_cast<double>(photos.size()),
                             static_cast<double>(i + 1) / static_cast<double>(photos.size()));
-    progress.update(0, name);
-    const io::Photo photo = io::read_photo(input.image);
-    // A mask that was made by hand says more than an alpha channel.
-    const Image8 mask = input.mask.empty() ? photo.alpha : given_mask(input.mask, photo.rgb);
-    const segmentation::Segmentation segmented = segmentation::segment_photo(
-        photo.rgb, mask, {input.box_px, input.click_px}, options, item_seed(run.seed(), i), progress);
     const std::string folder = three_digits(i);
-    io::write_image(run.output(folder + "/segments.png"), segmentation::paint_labels(segmented));
-    write_segments(run.output(folder + "/segments.json"), segmented);
-    io::write_image(run.output(folder + "/stencil.png"), segmented.stencil);
+    const segmentation::Segmentation segmented =
+        write_segment_files(photos[i], options, item_seed(run.seed(), i),
+                            run.output(folder + "/stencil.png").parent_path(), progress);
     run.metric("photo_" + folder + "_confidence", segmented.confidence);
     run.metric("photo_" + folder + "_how", segmented.how);
   }
@@ -45,9 +44,26 @@ void run(const segmentation::SegmentOptions& options, pipeline::StageRun& run) {
 
 }  // namespace
 
+segmentation::Segmentation write_segment_files(const pipeline::PhotoInput& input,
+                                               const segmentation::SegmentOptions& options,
+                                               std::uint64_t seed, const std::filesystem::path& folder,
+                                               const Progress& progress) {
+  progress.update(0, input.image.filename().string());
+  const io::Photo photo = io::read_photo(input.image);
+  // A mask that was made by hand says more than an alpha channel.
+  const Image8 mask = input.mask.empty() ? photo.alpha : given_mask(input.mask, photo.rgb);
+  segmentation::Segmentation segmented =
+      segmentation::segment_photo(photo.rgb, mask, region_of(input, photo.rgb), options, seed, progress);
+  io::write_image(folder / "segments.png", segmentation::paint_labels(segmented));
+  write_segments(folder / "segments.json", segmented);
+  io::write_image(folder / "stencil.png", segmented.stencil);
+  return segmented;
+}
+
 pipeline::Stage segment_stage() {
   pipeline::Stage stage;
   stage.name = "segment";
+  stage.version = 2;
   stage.summary = "Finds the object in each photo, without the mesh: segments and an image stencil.";
   stage.input_parts = {"photos", "photo_regions"};
   stage.writes = {"*/segments.png", "*/segments.json", "*/stencil.png"};

@@ -56,6 +56,10 @@ double intersection_over_union(const Image8& a, const Image8& b) {
   return either > 0 ? both / either : 0;
 }
 
+constexpr std::array all_found = {Method::automatic,     Method::kmeans, Method::divisive,
+                                  Method::agglomerative, Method::em,     Method::grabcut,
+                                  Method::background};
+
 SegmentOptions with_method(Method method) {
   SegmentOptions options;
   options.method = method;
@@ -82,11 +86,13 @@ void expect_consistent(const Segmentation& s, const Image8& photo) {
 
 TEST(SegmentPhoto, FindsADiscOfTwoTonesUnaided) {
   const Studio s = studio(160, 120, 85, 58, 34);
-  for (const Method method : {Method::kmeans, Method::grabcut}) {
+  for (const Method method : all_found) {
     const Segmentation found = segmented(s.photo, with_method(method));
     expect_consistent(found, s.photo);
-    EXPECT_GT(intersection_over_union(found.stencil, s.truth), 0.97);
-    EXPECT_GT(found.confidence, 0.6);
+    // Texture is measured in windows, so that clusters by it part a few pixels off the outline.
+    const bool blunt = method == Method::em;
+    EXPECT_GT(intersection_over_union(found.stencil, s.truth), blunt ? 0.85 : 0.97) << found.how;
+    EXPECT_GT(found.confidence, blunt ? 0.01 : 0.6) << found.how;
   }
 }
 
@@ -161,16 +167,83 @@ TEST(SegmentPhoto, ASegmentUnderTheClickIsThatSegmentAlone) {
 
 TEST(SegmentPhoto, MoreClustersGiveMoreSegments) {
   const Studio s = studio(160, 120, 85, 58, 34);
-  SegmentOptions options = with_method(Method::kmeans);
-  options.clusters = 2;
-  const auto few = segmented(s.photo, options).segments.size();
-  options.clusters = 20;
-  EXPECT_GT(segmented(s.photo, options).segments.size(), few);
+  for (const Method method : {Method::kmeans, Method::divisive, Method::agglomerative, Method::em}) {
+    SegmentOptions options = with_method(method);
+    options.clusters = 2;
+    const auto few = segmented(s.photo, options).segments.size();
+    options.clusters = 20;
+    EXPECT_GT(segmented(s.photo, options).segments.size(), few);
+  }
+}
+
+TEST(SegmentPhoto, TheWeightOfThePositionChangesTheSegments) {
+  const Studio left = studio(200, 100, 40, 50, 25);
+  for (const Method method : {Method::kmeans, Method::divisive, Method::agglomerative, Method::em}) {
+    SegmentOptions options = with_method(method);
+    options.clusters = 6;
+    options.position_weight = 0;
+    const Image<std::int32_t> by_color = segmented(left.photo, options).labels;
+    options.position_weight = 3;
+    EXPECT_NE(segmented(left.photo, options).labels, by_color);
+  }
+}
+
+TEST(SegmentPhoto, AutomaticTakesTheBackdropsWordWhereThereIsOne) {
+  const Studio s = studio(160, 120, 85, 58, 34);
+  EXPECT_NE(segmented(s.photo, {}).how.find("background"), std::string::npos);
+  Image8 cluttered = s.photo;  // a border of three colours is no backdrop
+  for (int x = 0; x < 160; ++x)
+    for (int y = 0; y < 12; ++y) {
+      paint(cluttered, x, y, {20, 90, static_cast<std::uint8_t>(x < 80 ? 20 : 220)});
+      paint(cluttered, x, 119 - y, {static_cast<std::uint8_t>(x < 40 ? 220 : 30), 120, 40});
+    }
+  EXPECT_NE(segmented(cluttered, {}).how.find("GrabCut"), std::string::npos);
+}
+
+TEST(Background, APhotoOfTheEmptySceneShowsTheObjectInClutter) {
+  Studio s = studio(160, 120, 85, 58, 34);
+  Image8 scene(160, 120, 3);
+  Rng rng(3);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) {
+      const bool stripe = (x / 8 + y / 8) % 2 == 0;
+      const Rgb color = stripe ? Rgb{40, 160, 70} : Rgb{220, 210, 60};
+      paint(scene, x, y, color);
+      if (s.truth.at(x, y) == stencil::object) continue;
+      // 12 % darker than without the object, and noisier
+      for (int c = 0; c < 3; ++c)
+        s.photo.at(x, y, c) =
+            static_cast<std::uint8_t>(0.88 * color[static_cast<std::size_t>(c)] + 2 * rng.normal());
+    }
+  PhotoRegion region;
+  region.empty_scene = scene;
+  const Segmentation found = segmented(s.photo, with_method(Method::background), region);
+  EXPECT_GT(intersection_over_union(found.stencil, s.truth), 0.95);
+  EXPECT_LT(intersection_over_union(segmented(s.photo, with_method(Method::background)).stencil, s.truth),
+            0.9);
+}
+
+TEST(Scribbles, TellWhichOfTwoDiscsIsMeant) {
+  const Studio left = studio(200, 100, 50, 50, 30);
+  const Studio right = studio(200, 100, 150, 50, 30);
+  Image8 photo = left.photo;
+  for (int y = 0; y < 100; ++y)
+    for (int x = 100; x < 200; ++x)
+      paint(photo, x, y, {right.photo.at(x, y, 0), right.photo.at(x, y, 1), right.photo.at(x, y, 2)});
+  PhotoRegion region;
+  region.scribbles = Image8(200, 100, 1, stencil::unknown);
+  for (int i = -20; i <= 20; ++i) {
+    region.scribbles.at(150 + i, 50) = stencil::object;
+    region.scribbles.at(50 + i, 50) = stencil::background;
+    region.scribbles.at(100 + i, 5) = stencil::background;
+  }
+  const Segmentation found = segmented(photo, with_method(Method::grabcut), region);
+  EXPECT_GT(intersection_over_union(found.stencil, right.truth), 0.93);
 }
 
 TEST(SegmentPhoto, IsTheSameForAnyNumberOfThreads) {
   const Studio s = studio(300, 200, 140, 100, 60);
-  for (const Method method : {Method::kmeans, Method::grabcut}) {
+  for (const Method method : all_found) {
     set_thread_count(1);
     const Segmentation one = segmented(s.photo, with_method(method));
     set_thread_count(4);
@@ -231,7 +304,7 @@ TEST(PaintLabels, GivesEverySegmentItsColor) {
 }
 
 TEST(NastyPhotos, OneColorHasNothingThatStandsOut) {
-  for (const Method method : {Method::kmeans, Method::grabcut}) {
+  for (const Method method : all_found) {
     const Image8 photo(40, 30, 3, 128);
     const Segmentation found = segmented(photo, with_method(method));
     expect_consistent(found, photo);
@@ -246,7 +319,7 @@ TEST(NastyPhotos, OnePixelAndFewerPixelsThanClusters) {
   for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {3, 2}}) {
     Image8 photo(width, height, 3, 10);
     photo.at(width - 1, height - 1) = 250;
-    for (const Method method : {Method::kmeans, Method::grabcut}) {
+    for (const Method method : all_found) {
       options.method = method;
       expect_consistent(segmented(photo, options), photo);
     }
@@ -284,6 +357,14 @@ TEST(BadInput, IsRefusedInWords) {
   region = {};
   region.box_px = {20, 0, 5, 5};
   EXPECT_NE(message(ErrorCode::config, photo, {}, region, {}).find("holds no pixel"), std::string::npos);
+  region = {};
+  region.scribbles = Image8(10, 8, 1, stencil::object);
+  EXPECT_NE(message(ErrorCode::input, photo, {}, region, {}).find("mark no background"), std::string::npos);
+  region.scribbles = Image8(3, 3, 1, stencil::object);
+  EXPECT_NE(message(ErrorCode::input, photo, {}, region, {}).find("3 x 3"), std::string::npos);
+  region = {};
+  region.empty_scene = Image8(7, 8, 3);
+  EXPECT_NE(message(ErrorCode::input, photo, {}, region, {}).find("7 x 8"), std::string::npos);
   SegmentOptions options = with_method(Method::kmeans);
   options.pick = Pick::click;
   EXPECT_NE(message(ErrorCode::config, photo, {}, {}, options).find("click_px"), std::string::npos);

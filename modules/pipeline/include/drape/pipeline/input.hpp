@@ -20,6 +20,8 @@ struct PhotoCamera {
 struct PhotoInput {
   std::filesystem::path image;
   std::filesystem::path mask;                     // empty: none
+  std::filesystem::path scribbles;                // marks of object and background; empty: none
+  std::filesystem::path background;               // the same view without the object; empty: none
   std::optional<std::array<double, 4>> box_px;    // x, y, width, height
   std::optional<std::array<double, 2>> click_px;  // a point inside the object
   PhotoCamera camera;

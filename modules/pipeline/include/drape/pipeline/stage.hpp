@@ -50,12 +50,12 @@ class StageRun {
 };
 
 struct Stage {
-  std::string name;     // the YAML section
-  int version = 1;      // bumped when equal inputs give other outputs
-  std::string summary;  // one line for help and the reference page
-  std::vector<std::string>
-      input_parts;  // members of `input:` that it reads: "scans", "poses", "mesh", "cameras", "units",
-                    // "up", "photos", "photo_regions" (mask, box, click), "photo_cameras"
+  std::string name;                      // the YAML section
+  int version = 1;                       // bumped when equal inputs give other outputs
+  std::string summary;                   // one line for help and the reference page
+  std::vector<std::string> input_parts;  // members of `input:` that it reads: "scans", "poses", "mesh",
+                                         // "cameras", "units", "up", "photos", "photo_regions" (mask,
+                                         // scribbles, background, box, click), "photo_cameras"
   std::vector<Artifact> reads;
   std::vector<std::string> writes;            // file patterns
   std::function<bool(const Input&)> applies;  // whether a run with this input has the stage
