@@ -35,11 +35,13 @@ void segment_command(const SegmentArguments& arguments, const std::atomic<bool>&
   input.box_px = numbers_of<4>(arguments.box);
   input.click_px = numbers_of<2>(arguments.click);
   const std::filesystem::path folder =
-      arguments.output.empty() ? arguments.photo.parent_path() / (arguments.photo.stem().string() + "-segments")
-                               : arguments.output;
+      arguments.output.empty()
+          ? arguments.photo.parent_path() / (arguments.photo.stem().string() + "-segments")
+          : arguments.output;
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) throw Error(ErrorCode::io, fmt::format("{}: cannot be made: {}", folder.string(), failed.message()));
+  if (failed)
+    throw Error(ErrorCode::io, fmt::format("{}: cannot be made: {}", folder.string(), failed.message()));
   ProgressDisplay display(arguments.progress);
   const Progress progress(
       [&](double fraction, std::string_view what) { display.show("segment", fraction, what); }, &stop);

@@ -61,13 +61,14 @@ TEST(Clusters, TheirNumberIsTheFewestThatExplainTheVariance) {
 TEST(Texture, IsDirectedInStripesAndOneSidedAtAnEdge) {
   ImageF lab(96, 64, 3, 0.F);
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 96; ++x) lab.at(x, y, 0) = x < 48 ? ((x / 2) % 2 == 0 ? 30.F : 70.F) : (x < 72 ? 30.F : 70.F);
+    for (int x = 0; x < 96; ++x)
+      lab.at(x, y, 0) = x < 48 ? ((x / 2) % 2 == 0 ? 30.F : 70.F) : (x < 72 ? 30.F : 70.F);
   const ImageF texture = texture_features(lab);
-  EXPECT_GT(texture.at(24, 32, 2), 0.1F);                               // contrast in the stripes
-  EXPECT_LT(texture.at(60, 32, 2), 0.01F);                              // none in the flat part
-  EXPECT_GT(texture.at(24, 32, 0), 0.9F * texture.at(24, 32, 2));       // upright: anisotropy near 1
-  EXPECT_GT(texture.at(72, 32, 1), 0.5F * texture.at(72, 32, 2));       // an edge is polar
-  EXPECT_LT(texture.at(24, 32, 1), 0.5F * texture.at(24, 32, 2));       // stripes are not
+  EXPECT_GT(texture.at(24, 32, 2), 0.1F);                          // contrast in the stripes
+  EXPECT_LT(texture.at(60, 32, 2), 0.01F);                         // none in the flat part
+  EXPECT_GT(texture.at(24, 32, 0), 0.9F * texture.at(24, 32, 2));  // upright: anisotropy near 1
+  EXPECT_GT(texture.at(72, 32, 1), 0.5F * texture.at(72, 32, 2));  // an edge is polar
+  EXPECT_LT(texture.at(24, 32, 1), 0.5F * texture.at(24, 32, 2));  // stripes are not
 }
 
 // A backdrop that falls off by 25 in L from one corner to the other, and a disc 20 darker than it.
@@ -86,7 +87,9 @@ ImageF falling_off(bool with_disc) {
 TEST(Backdrop, OneThatFallsOffIsNoObject) {
   const Backdrop empty = smooth_backdrop(falling_off(false));
   EXPECT_EQ(empty.border_share, 1);
-  EXPECT_LT(std::count_if(empty.difference.data().begin(), empty.difference.data().end(), [](float d) { return d > 1; }), 5);
+  EXPECT_LT(std::count_if(empty.difference.data().begin(), empty.difference.data().end(),
+                          [](float d) { return d > 1; }),
+            5);
   const Backdrop disc = smooth_backdrop(falling_off(true));
   for (int y = 0; y < 90; ++y)
     for (int x = 0; x < 120; ++x) {

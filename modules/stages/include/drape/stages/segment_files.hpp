@@ -11,10 +11,11 @@
 namespace drape::stages {
 
 /// Reads the photo and what is given with it, finds the object, and writes segments.png, segments.json and
-/// stencil.png into `folder`, which must be there. Errors as those of io::read_photo and segment_photo, naming the
-/// photo.
+/// stencil.png into `folder`, which must be there. Errors as those of io::read_photo and segment_photo,
+/// naming the photo.
 segmentation::Segmentation write_segment_files(const pipeline::PhotoInput& input,
-                                               const segmentation::SegmentOptions& options, std::uint64_t seed,
-                                               const std::filesystem::path& folder, const Progress& progress);
+                                               const segmentation::SegmentOptions& options,
+                                               std::uint64_t seed, const std::filesystem::path& folder,
+                                               const Progress& progress);
 
 }  // namespace drape::stages
