@@ -120,7 +120,8 @@ RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start, const
     const double kernel = std::max(least_kernel_px, 2 * median_distance(residuals, buffer));
     NormalEquations sum = normal_equations(pose, drawing.rim(), residuals, window.px_per_photo_px, kernel);
     add_priors(pose, lens, plan.free_principal_point, sum);
-    if (first || agreement.score() > best.agreement.score()) {
+    // Among iterates of one pose the area decides: it still grows where the outline already fits all round.
+    if (first || agreement.overlap + agreement.score() > best.agreement.overlap + best.agreement.score()) {
       best = {pose, agreement, sum.matrix, sum.chi_squared};
       first = false;
     }

@@ -19,11 +19,15 @@ constexpr double usual_perspective = 0.2;
 constexpr double distinct_rad = 10 * radians;  // of candidates of the coarse search
 constexpr double same_pose_rad = 3 * radians;  // of refined ones
 constexpr std::size_t candidates_at_first = 48;
-constexpr std::size_t candidates_with_effort = 160;
+constexpr std::size_t candidates_with_effort = 400;
 constexpr std::size_t kept_after_glance = 16;
 constexpr std::size_t kept_for_middle = 8;
 constexpr std::size_t kept_for_full = 4;
-constexpr double good_score = 0.93;  // at the coarse level: with less the stencil is not trusted
+// What is worse than the best by more than this is no rival of it at the next level either.
+constexpr double coarse_margin = 0.15;
+constexpr double middle_margin = 0.08;
+constexpr double principal_point_gain = 200;  // of chi squared
+constexpr double good_score = 0.9;            // at the coarse level: with less the stencil is not trusted
 
 struct Candidate {
   float score = 0;
@@ -134,12 +138,21 @@ std::vector<RefinedPose> best_of(std::vector<RefinedPose> poses, std::size_t mos
   std::vector<RefinedPose> kept;
   for (RefinedPose& pose : poses) {
     if (kept.size() == most) break;
-    const bool seen = std::any_of(kept.begin(), kept.end(), [&](const RefinedPose& better) {
+    const auto seen = std::find_if(kept.begin(), kept.end(), [&](const RefinedPose& better) {
       return angle_between(better.pose.rotation, pose.pose.rotation) < same_pose_rad;
     });
-    if (!seen) kept.push_back(std::move(pose));
+    // Of versions of one pose the area decides, as among the iterates of one refinement.
+    if (seen != kept.end() &&
+        pose.agreement.overlap + pose.agreement.score() > seen->agreement.overlap + seen->agreement.score())
+      *seen = pose;
+    if (seen == kept.end()) kept.push_back(std::move(pose));
   }
   return kept;
+}
+
+void drop_beaten(std::vector<RefinedPose>& sorted, double margin) {
+  std::erase_if(sorted, [best = sorted.empty() ? 0.0 : sorted.front().agreement.score(),
+                         margin](const RefinedPose& pose) { return pose.agreement.score() < best - margin; });
 }
 
 class Refinement {
@@ -216,6 +229,19 @@ Eigen::Matrix3d principal_axes_of(const OutlineMesh& mesh) {
       .eigenvectors();
 }
 
+// A cropped photo's principal point is not in its middle. It is freed only where that explains the outline
+// far better, as all others are better off without two more unknowns.
+RefinedPose with_free_principal_point(const OutlineMesh& mesh, const RefinedPose& fixed,
+                                      const Evidence& evidence, const LensPrior& lens) {
+  OutlineDrawing drawing;
+  const RefinementPlan plan{evidence.levels() - 1, 8, 3, 1.5, 1.0, true};
+  const RefinedPose free = refine_pose(mesh, fixed.pose, evidence, lens, plan, drawing);
+  const bool better = free.chi_squared < 0.35 * fixed.chi_squared &&
+                      fixed.chi_squared - free.chi_squared > principal_point_gain &&
+                      free.agreement.overlap > fixed.agreement.overlap;
+  return better ? free : fixed;
+}
+
 }  // namespace
 
 PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence,
@@ -261,13 +287,17 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
       std::erase_if(refined, [&](const RefinedPose& r) { return !settings.allowed(r.pose); });
   }
   refined = best_of(std::move(refined), kept_for_middle);
+  drop_beaten(refined, coarse_margin);
   progress.update(0.75, "refining");
   refined = best_of(refinement.all(meshes.middle, poses_of(refined), middle, progress), kept_for_full);
+  drop_beaten(refined, middle_margin);
   progress.update(0.85, "refining");
   for (int level = std::min(2, last); level <= last; ++level) {
     const RefinementPlan fine{level, 8, 5, 1.5, 1.0, false};
     refined = best_of(refinement.all(meshes.full, poses_of(refined), fine, progress), kept_for_full);
   }
+  if (!refined.empty() && !settings.principal_point_known && !settings.lens.orthographic)
+    refined.front() = with_free_principal_point(meshes.full, refined.front(), evidence, settings.lens);
   progress.update(1, "refining");
   result.poses = std::move(refined);
   return result;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -14,10 +15,13 @@ constexpr double least_inliers = 0.5;  // of the outline: with less the object i
 constexpr double good_inliers = 0.85;
 constexpr double least_margin = 0.03;  // of the score, over the best other pose
 constexpr double most_sigma_deg = 1.5;
+constexpr double same_axis = 0.95;    // cosine
+constexpr double free_sigma_deg = 8;  // about one axis: the outline hardly changes with the rotation
 
 struct PoseCovariance {
   PoseSigma sigma;
   double largest_rotation_deg = 0;
+  double looseness = 1;  // the largest spread of rotation over the next one
   Eigen::Vector3d loosest_axis = Eigen::Vector3d::UnitX();  // of rotation, in camera axes
 };
 
@@ -26,7 +30,7 @@ std::optional<PoseCovariance> covariance_of(const RefinedPose& refined, const Le
   const Eigen::MatrixXd information = directions.transpose() * refined.information * directions;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> whole(information);
   if (!(whole.eigenvalues().maxCoeff() > 0)) return std::nullopt;
-  // A direction without any information is given a spread of a radian or so rather than an infinite one.
+  // A direction without any information is given a large spread rather than an infinite one.
   const Eigen::VectorXd variances = whole.eigenvalues().cwiseMax(1e-3).cwiseInverse();
   const PoseMatrix covariance = directions * whole.eigenvectors() * variances.asDiagonal() *
                                 whole.eigenvectors().transpose() * directions.transpose();
@@ -46,6 +50,18 @@ std::optional<PoseCovariance> covariance_of(const RefinedPose& refined, const Le
     result.sigma.focal_percent = 100 * std::sqrt(std::max(0.0, variance));
   }
   return result;
+}
+
+// The axis of the mesh about which the outline leaves it free: because the outline hardly changes, or because
+// it changes least about the axis that the next best pose is turned about (a body of rotation with facets).
+std::optional<Eigen::Vector3d> free_axis_of(const RefinedPose& best, const RefinedPose* rival,
+                                            const PoseCovariance& covariance) {
+  const Eigen::Vector3d axis = best.pose.rotation.transpose() * covariance.loosest_axis;
+  if (covariance.largest_rotation_deg > free_sigma_deg) return axis;
+  if (rival == nullptr) return std::nullopt;
+  const Eigen::AngleAxisd between(Eigen::Matrix3d(best.pose.rotation.transpose() * rival->pose.rotation));
+  if (std::abs(between.axis().dot(axis)) < same_axis) return std::nullopt;
+  return axis;
 }
 
 }  // namespace
@@ -72,12 +88,20 @@ PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior
   };
   if (inliers < good_inliers)
     doubt(fmt::format("{:.0f} % of the outline fits, the rest does not", 100 * inliers));
-  if (covariance->largest_rotation_deg > most_sigma_deg)
+  while (judgement.rivals + 1 < poses.size() &&
+         best.agreement.score() - poses[judgement.rivals + 1].agreement.score() < least_margin)
+    ++judgement.rivals;
+  judgement.free_axis = free_axis_of(best, judgement.rivals > 0 ? &poses[1] : nullptr, *covariance);
+  if (judgement.free_axis) {
+    doubt(fmt::format("free about the axis ({:.2f}, {:.2f}, {:.2f}) of the mesh: its outline stays the same",
+                      judgement.free_axis->x(), judgement.free_axis->y(), judgement.free_axis->z()));
+  } else if (covariance->largest_rotation_deg > most_sigma_deg)
     doubt(fmt::format("the outline leaves a rotation free by {:.1f} degrees",
                       covariance->largest_rotation_deg));
-  if (poses.size() > 1 && best.agreement.score() - poses[1].agreement.score() < least_margin)
-    doubt(fmt::format("a pose {:.0f} degrees away fits nearly as well",
-                      angle_between(best.pose.rotation, poses[1].pose.rotation) * degrees));
+  if (judgement.rivals > 0)
+    doubt(fmt::format(
+        "a pose {:.0f} degrees away fits nearly as well: a mirror twin, or a symmetry of the object",
+        angle_between(best.pose.rotation, poses[1].pose.rotation) * degrees));
   if (judgement.reasons.empty())
     judgement.reasons.push_back(
         fmt::format("{:.1f} % of the outline fits, to {:.2f} pixels", 100 * inliers, best.agreement.rms_px));

@@ -15,6 +15,8 @@ struct PoseJudgement {
   Verdict verdict = Verdict::reject;
   std::vector<std::string> reasons;
   std::optional<PoseSigma> sigma;
+  std::optional<Eigen::Vector3d> free_axis;  // of rotation, in the mesh's axes
+  std::size_t rivals = 0;                    // of the poses after the first: how many fit nearly as well
 };
 
 /// `poses` are distinct, best first, of the evidence's last level.

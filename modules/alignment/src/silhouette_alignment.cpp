@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "drape/base/error.hpp"
@@ -10,6 +11,7 @@
 #include "photo_plane.hpp"
 #include "pose_search.hpp"
 #include "pose_verdict.hpp"
+#include "shading_cue.hpp"
 #include "simplified_mesh.hpp"
 #include "stencil_evidence.hpp"
 
@@ -66,6 +68,52 @@ SearchSettings search_settings(const PhotoEvidence& evidence, const AlignOptions
   return settings;
 }
 
+// The poses as cameras, the best first, with what is to be thought of them.
+Alignment judged(const std::vector<RefinedPose>& poses, const SearchSettings& settings,
+                 const PhotoEvidence& evidence, const TriangleMesh& mesh, const UnitSphere& sphere,
+                 const PhotoPlane& plane, Camera::Projection projection) {
+  Alignment alignment;
+  alignment.camera.width = evidence.stencil.width();
+  alignment.camera.height = evidence.stencil.height();
+  std::vector<RefinedPose> ranked = poses;
+  PoseJudgement judgement = judge_poses(ranked, settings.lens);
+  std::vector<Camera> cameras;
+  for (const RefinedPose& pose : ranked)
+    cameras.push_back(camera_of(pose.pose, sphere, projection, plane.principal_px(), evidence.stencil.width(),
+                                evidence.stencil.height()));
+  if (judgement.rivals > 0 && evidence.photo != nullptr && plane.plain()) {
+    const std::vector<Camera> rivals(cameras.begin(),
+                                     cameras.begin() + 1 + static_cast<std::ptrdiff_t>(judgement.rivals));
+    const auto chosen =
+        static_cast<std::ptrdiff_t>(best_shaded(mesh, *evidence.photo, evidence.stencil, rivals));
+    if (chosen > 0) {
+      std::rotate(ranked.begin(), ranked.begin() + chosen, ranked.begin() + chosen + 1);
+      std::rotate(cameras.begin(), cameras.begin() + chosen, cameras.begin() + chosen + 1);
+      const std::size_t count = judgement.rivals;
+      judgement = judge_poses(ranked, settings.lens);
+      judgement.rivals = count;
+      judgement.reasons.push_back("of those poses the photo's shading fits this one best");
+    }
+  }
+  alignment.verdict = judgement.verdict;
+  alignment.reasons = judgement.reasons;
+  for (std::size_t i = 0; i < ranked.size(); ++i)
+    alignment.candidates.push_back({cameras[i], 100 * ranked[i].agreement.overlap,
+                                    ranked[i].agreement.score(),
+                                    i == 0                  ? judgement.verdict
+                                    : i <= judgement.rivals ? Verdict::review
+                                                            : Verdict::reject});
+  if (ranked.empty()) return alignment;
+  const Agreement& best = ranked.front().agreement;
+  alignment.camera = cameras.front();
+  alignment.overlap_percent = 100 * best.overlap;
+  alignment.inlier_fraction = 0.5 * (best.rim_inliers + best.image_inliers);
+  if (alignment.inlier_fraction > 0) alignment.boundary_error_px = best.rms_px;
+  alignment.sigma = judgement.sigma;
+  if (judgement.free_axis) alignment.free_axis = FreeAxis{sphere.center, *judgement.free_axis};
+  return alignment;
+}
+
 }  // namespace
 
 Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& evidence,
@@ -84,28 +132,10 @@ Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& eviden
   const SearchSettings settings = search_settings(evidence, options, plane, sphere);
   const PoseSearchResult found = search_poses(meshes, outline, settings, progress.part(0.05, 0.95));
 
-  Alignment alignment;
+  Alignment alignment = judged(found.poses, settings, evidence, mesh, sphere, plane, options.projection);
   alignment.metrics.pass1_seconds = found.statistics.coarse_seconds;
   alignment.metrics.candidates_listed = found.statistics.candidates_listed;
   alignment.metrics.candidates_tried = found.statistics.candidates_tried;
-  const PoseJudgement judgement = judge_poses(found.poses, settings.lens);
-  alignment.verdict = judgement.verdict;
-  alignment.reasons = judgement.reasons;
-  for (const RefinedPose& pose : found.poses)
-    alignment.candidates.push_back({camera_of(pose.pose, sphere, options.projection, plane.principal_px(),
-                                              evidence.stencil.width(), evidence.stencil.height()),
-                                    100 * pose.agreement.overlap, pose.agreement.score(), judgement.verdict});
-  if (alignment.candidates.empty()) {
-    alignment.camera.width = evidence.stencil.width();
-    alignment.camera.height = evidence.stencil.height();
-    return alignment;
-  }
-  const RefinedPose& best = found.poses.front();
-  alignment.camera = alignment.candidates.front().camera;
-  alignment.overlap_percent = 100 * best.agreement.overlap;
-  alignment.inlier_fraction = 0.5 * (best.agreement.rim_inliers + best.agreement.image_inliers);
-  if (alignment.inlier_fraction > 0) alignment.boundary_error_px = best.agreement.rms_px;
-  alignment.sigma = judgement.sigma;
   progress.update(1, "judging");
   return alignment;
 }

@@ -62,7 +62,7 @@ struct PhotoEvidence {
   const Image8& stencil;
   /// Focal length as the photo's file tells it, in pixels: a hint that the outline may overrule.
   std::optional<double> focal_px_prior;
-  /// RGB at the stencil's size.
+  /// RGB at the stencil's size: where the outline cannot tell poses apart, the best shaded comes first.
   const Image8* photo = nullptr;
   /// Kept as they are. The camera that is found then has this K, and maps undistorted pixels.
   std::optional<KnownLens> lens;
@@ -88,6 +88,12 @@ struct PoseSigma {
   double focal_percent = 0;  // 0 where it was given
 };
 
+/// A rotation of the object that its outline does not show.
+struct FreeAxis {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // in the mesh's frame
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+};
+
 /// Times depend on the machine; all else is the same for the same input, options and seed.
 struct AlignmentMetrics {
   double pass1_seconds = 0;  // from the start to the sorted list of candidates
@@ -107,6 +113,7 @@ struct Alignment {
   double inlier_fraction = 0;               // of the two outlines' length: what lies on the other one, 0..1
   std::optional<double> boundary_error_px;  // root mean square over those; nothing if there are none
   std::optional<PoseSigma> sigma;
+  std::optional<FreeAxis> free_axis;
   AlignmentMetrics metrics;
 };
 
