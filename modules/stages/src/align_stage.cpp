@@ -191,7 +191,7 @@ void run(const alignment::AlignOptions& options, pipeline::StageRun& run) {
 pipeline::Stage align_stage() {
   pipeline::Stage stage;
   stage.name = "align";
-  stage.version = 2;
+  stage.version = 3;
   stage.summary = "Finds each photo's camera by matching the mesh's outline with the photo's stencil.";
   stage.input_parts = {"photos", "photo_cameras", "cameras", "up"};
   stage.reads = {{"fill", "mesh.ply"}, {"fill", "holes.json"}, {"segment", "*/stencil.png"}};
