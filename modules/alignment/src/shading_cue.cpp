@@ -11,7 +11,7 @@
 namespace drape::alignment {
 namespace {
 
-constexpr double object_px = 160;         // the object's size in the pictures that are compared
+constexpr double object_px = 160;  // the object's size in the pictures that are compared
 constexpr int least_pixels = 200;
 constexpr double independent_pixels = 200;  // of the thousands that there are: neighbours share their error
 constexpr double least_evidence = 8;        // of log likelihood, for overruling the outline's order
@@ -47,8 +47,8 @@ double shading_evidence(const TriangleMesh& mesh, rendering::Renderer& renderer,
       const int u = static_cast<int>((x + 0.5) * camera.width / small.width);
       const int v = static_cast<int>((y + 0.5) * camera.height / small.height);
       if (face == rendering::DepthMap::no_face || stencil.at(u, v) != stencil::object) continue;
-      Eigen::Vector3d normal =
-          small.camera_from_world.linear() * scaled_face_normal(mesh, static_cast<std::size_t>(face)).normalized();
+      Eigen::Vector3d normal = small.camera_from_world.linear() *
+                               scaled_face_normal(mesh, static_cast<std::size_t>(face)).normalized();
       if (normal.z() > 0) normal = -normal;  // whichever side of a face is seen looks at the camera
       const Harmonics h = harmonics(normal);
       const double value = brightness(photo, u, v);

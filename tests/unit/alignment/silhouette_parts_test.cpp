@@ -75,7 +75,8 @@ BitImage drawn(const std::vector<Eigen::Vector2d>& corners, const std::vector<Fa
 }
 
 TEST(BitRaster, RectangleHoldsTheCentresWithinIt) {
-  const BitImage image = drawn({{3.5, 2.2}, {90.5, 2.2}, {90.5, 17.6}, {3.5, 17.6}}, {{0, 1, 2}, {0, 2, 3}}, 100, 20);
+  const BitImage image =
+      drawn({{3.5, 2.2}, {90.5, 2.2}, {90.5, 17.6}, {3.5, 17.6}}, {{0, 1, 2}, {0, 2, 3}}, 100, 20);
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 100; ++x)
       EXPECT_EQ(image.at(x, y), x + 0.5 >= 3.5 && x + 0.5 < 90.5 && y + 0.5 >= 2.2 && y + 0.5 < 17.6)
@@ -205,7 +206,8 @@ TEST(PhotoPlane, UndistortsWhatTheLensDistorts) {
   lens.K << 500, 1, 310, 0, 520, 250, 0, 0, 1;
   lens.distortion = {-0.2, 0.05, 0.001, -0.002, 0.01};
   const PhotoPlane plane(640, 480, lens);
-  for (const Eigen::Vector2d& x : {Eigen::Vector2d(20, 30), Eigen::Vector2d(400, 300), Eigen::Vector2d(639, 470)})
+  for (const Eigen::Vector2d& x :
+       {Eigen::Vector2d(20, 30), Eigen::Vector2d(400, 300), Eigen::Vector2d(639, 470)})
     EXPECT_LT((plane.to_photo(plane.to_ideal(x)) - x).norm(), 1e-6);
   EXPECT_FALSE(test::error_message(ErrorCode::config, [&] {
                  lens.distortion = {0.1};
@@ -229,7 +231,8 @@ TEST(StencilLevel, ContourOfADiscIsItsCircle) {
       off += point.length * (from_center.norm() - radius);
       EXPECT_GT(point.outward.dot(from_center.normalized()), 0.98);
     }
-    EXPECT_NEAR(level.contour_length * step, 2 * std::numbers::pi * radius, 0.02 * 2 * std::numbers::pi * radius);
+    EXPECT_NEAR(level.contour_length * step, 2 * std::numbers::pi * radius,
+                0.02 * 2 * std::numbers::pi * radius);
     EXPECT_LT(std::abs(off / level.contour_length), 0.05) << step;  // no bias to either side
   }
 }

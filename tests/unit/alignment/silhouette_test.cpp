@@ -18,7 +18,9 @@ namespace {
 Alignment align(const TriangleMesh& mesh, const PhotoEvidence& evidence, const AlignOptions& options = {}) {
   return align_photo(mesh, evidence, options, 1, {});
 }
-Alignment align(const TriangleMesh& mesh, const Image8& stencil) { return align(mesh, PhotoEvidence{stencil}); }
+Alignment align(const TriangleMesh& mesh, const Image8& stencil) {
+  return align(mesh, PhotoEvidence{stencil});
+}
 
 bool mentions(const Alignment& found, const std::string& words) {
   for (const std::string& reason : found.reasons)
@@ -27,7 +29,9 @@ bool mentions(const Alignment& found, const std::string& words) {
 }
 
 // The photo of `view_of` four times as large.
-Camera large_view(const Eigen::Vector3d& euler_deg) { return view_of(euler_deg).resized(640, 480); }
+Camera large_view(const Eigen::Vector3d& euler_deg) {
+  return view_of(euler_deg).resized(640, 480);
+}
 
 TEST(Silhouette, FindsAnyPoseToATenthOfADegree) {
   const TriangleMesh mesh = knobbed_brick();
@@ -59,8 +63,7 @@ TEST(Silhouette, LargerPhotosGiveBetterPoses) {
 
 TEST(Silhouette, OrthographicCamera) {
   const TriangleMesh mesh = knobbed_brick();
-  const Camera truth =
-      view_of({20, 70, 130}, 34, 85, 57, Camera::Projection::orthographic).resized(640, 480);
+  const Camera truth = view_of({20, 70, 130}, 34, 85, 57, Camera::Projection::orthographic).resized(640, 480);
   AlignOptions options;
   options.projection = Camera::Projection::orthographic;
   const Alignment found = align(mesh, {stencil_of(mesh, truth)}, options);
@@ -94,7 +97,8 @@ TEST(Silhouette, UsesAKnownLensWithItsDistortion) {
   Image8 photo(640, 480, 1, stencil::background);
   for (int y = 0; y < 480; ++y)
     for (int x = 0; x < 640; ++x) {
-      const Eigen::Vector2d target((x + 0.5 - lens.K(0, 2)) / lens.K(0, 0), (y + 0.5 - lens.K(1, 2)) / lens.K(1, 1));
+      const Eigen::Vector2d target((x + 0.5 - lens.K(0, 2)) / lens.K(0, 0),
+                                   (y + 0.5 - lens.K(1, 2)) / lens.K(1, 1));
       Eigen::Vector2d at = target;
       for (int i = 0; i < 20; ++i) {
         const double r2 = at.squaredNorm();
@@ -176,7 +180,8 @@ TEST(Silhouette, SeesThroughAFifthThatIsMissing) {
   std::vector<int> columns(640, 0);
   int total = 0;
   for (int x = 0; x < 640; ++x)
-    for (int y = 0; y < 480; ++y) columns[static_cast<std::size_t>(x)] += photo.at(x, y) == stencil::object ? 1 : 0;
+    for (int y = 0; y < 480; ++y)
+      columns[static_cast<std::size_t>(x)] += photo.at(x, y) == stencil::object ? 1 : 0;
   for (const int n : columns) total += n;
   int gone = 0;
   for (int x = 0; x < 640 && gone < total / 5; ++x) {
