@@ -49,10 +49,12 @@ Outcome run_drape(const std::vector<std::string>& arguments, const std::filesyst
 }
 
 Outcome run_drape_and_signal(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                             int signal, double after_seconds) {
+                             int signal, const std::filesystem::path& begun) {
   const ScratchFolder scratch;
   const pid_t child = start(arguments, folder, scratch / "out", scratch / "err");
-  std::this_thread::sleep_for(std::chrono::duration<double>(after_seconds));
+  constexpr int most_waits = 6000;
+  for (int i = 0; i < most_waits && !std::filesystem::exists(begun); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   ::kill(child, signal);
   return finish(child, scratch / "out", scratch / "err");
 }

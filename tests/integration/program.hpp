@@ -17,10 +17,10 @@ struct Outcome {
 [[nodiscard]] Outcome run_drape(const std::vector<std::string>& arguments,
                                 const std::filesystem::path& folder = std::filesystem::temp_directory_path());
 
-/// The same, but sends `signal` after so many seconds.
+/// The same, but sends `signal` as soon as the file or folder `begun` is there.
 [[nodiscard]] Outcome run_drape_and_signal(const std::vector<std::string>& arguments,
                                            const std::filesystem::path& folder, int signal,
-                                           double after_seconds);
+                                           const std::filesystem::path& begun);
 
 /// Names of the stages that made their result in this run, in order, by its plain progress lines ("[2/8]
 /// register: ...").

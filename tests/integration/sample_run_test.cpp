@@ -158,7 +158,8 @@ TEST(SampleRun, AnInterruptLosesNothing) {
                                               "output=" + teapot.output().string(),
                                               "--until",
                                               "mesh"};
-  const Outcome stopped = run_drape_and_signal(arguments, teapot.workspace().parent_path(), SIGTERM, 0.4);
+  const Outcome stopped = run_drape_and_signal(arguments, teapot.workspace().parent_path(), SIGTERM,
+                                               teapot.workspace() / "stages" / "register");
   EXPECT_EQ(stopped.exit_code, 128 + SIGTERM) << stopped.err;
   for (const auto& entry : fs::recursive_directory_iterator(teapot.workspace()))
     EXPECT_NE(entry.path().extension(), ".writing");
