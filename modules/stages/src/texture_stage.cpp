@@ -1,3 +1,6 @@
+#include <cmath>
+#include <numbers>
+
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
@@ -13,6 +16,18 @@ struct LoadedView {
   Image8 rgb;
   Image8 stencil;
 };
+
+// How far the outline may be off where the photo says nothing about it, by what the aligner knows of its own
+// error: an angle moves the rim of the object by its radius times the angle, at the most.
+double pose_sigma_px(const io::CameraRecord& record, const Image8& stencil) {
+  if (!record.sigma) return 0;
+  double object = 0;
+  for (const std::uint8_t value : stencil.data()) object += value == stencil::object ? 1 : 0;
+  const double radius_px = std::sqrt(object / std::numbers::pi);
+  const double radians = std::numbers::pi / 180;
+  return radius_px * std::hypot(record.sigma->rotation_deg * radians, record.sigma->direction_deg * radians,
+                                record.sigma->focal_percent / 100);
+}
 
 std::vector<LoadedView> load_views(const io::CamerasRecord& record, const pipeline::StageRun& run) {
   std::vector<LoadedView> views;
@@ -35,6 +50,9 @@ void write_pictures(const texturing::TextureResult& result, pipeline::StageRun& 
   for (std::size_t i = 0; i < result.coverage.size(); ++i)
     if (!result.coverage[i].empty())
       io::write_image(run.output("textures/" + three_digits(i) + "_coverage.png"), result.coverage[i]);
+  for (std::size_t i = 0; i < result.atlas_coverage.size(); ++i)
+    io::write_image(run.output("textures/atlas_" + three_digits(i) + "_coverage.png"),
+                    result.atlas_coverage[i]);
 }
 
 void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
@@ -44,15 +62,26 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
   const std::vector<LoadedView> loaded = load_views(record, run);
   std::vector<texturing::TextureView> views;
   for (std::size_t i = 0; i < loaded.size(); ++i)
-    views.push_back({loaded[i].rgb, record.cameras[i].camera, loaded[i].stencil, "color",
-                     record.cameras[i].verdict != io::Verdict::reject});
+    views.push_back({loaded[i].rgb, record.cameras[i].camera, loaded[i].stencil, three_digits(i) + "_color",
+                     record.cameras[i].verdict != io::Verdict::reject,
+                     pose_sigma_px(record.cameras[i], loaded[i].stencil)});
   const texturing::TextureResult result =
       texturing::texture_mesh(simplified, full, views, options, run.progress());
   write_pictures(result, run);
   run.metric("seen_percent", result.seen_percent);
   run.metric("filled_percent", result.filled_percent);
   run.metric("unseen_percent", result.unseen_percent);
+  run.metric("background_texels_percent", result.background_texels_percent);
+  run.metric("overhang_percent", result.overhang_percent);
   run.metric("faces", static_cast<double>(result.model.mesh.faces.size()));
+  if (!result.atlas_coverage.empty()) {
+    run.metric("atlas_pages", static_cast<double>(result.atlas_coverage.size()));
+    run.metric("atlas_used_percent", result.atlas_used_percent);
+    run.metric("texels_per_photo_pixel", result.texels_per_pixel);
+  }
+  for (std::size_t i = 0; i < result.views.size(); ++i)
+    if (result.views[i].warp_px > 0)
+      run.metric("photo_" + three_digits(i) + "_warp_px", result.views[i].warp_px);
   for (std::size_t i = 0; i < result.views.size(); ++i)
     if (!result.views[i].reason.empty())
       run.metric("photo_" + three_digits(i) + "_not_used", result.views[i].reason);
@@ -63,6 +92,7 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
 pipeline::Stage texture_stage() {
   pipeline::Stage stage;
   stage.name = "texture";
+  stage.version = 2;
   stage.summary = "Drapes the photos over the mesh: hidden surfaces, borders, unseen parts.";
   stage.input_parts = {"photos"};
   stage.reads = {{"fill", "mesh.ply"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace drape::texturing {
 namespace {
@@ -28,7 +29,15 @@ float linear_from_byte(std::uint8_t value) {
 }
 
 std::uint8_t byte_from_linear(float value) {
-  return static_cast<std::uint8_t>(std::lround(255.F * stored(value)));
+  // Steps this fine are a twentieth of a byte where the curve is steepest.
+  constexpr int steps = 65536;
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> t;
+    for (int i = 0; i <= steps; ++i)
+      t.push_back(static_cast<std::uint8_t>(std::lround(255.F * stored(static_cast<float>(i) / steps))));
+    return t;
+  }();
+  return table[static_cast<std::size_t>(std::lround(steps * std::clamp(value, 0.F, 1.F)))];
 }
 
 Eigen::Vector3f linear_from_stored(const Eigen::Vector3f& value) {

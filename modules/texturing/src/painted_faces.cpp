@@ -70,7 +70,7 @@ Look Looker::look(const Corners& corners, std::uint32_t source, int view) const 
     found.longest_px = std::max(found.longest_px, projected_length(s, corners[k], corners[(k + 1) % 3]));
   if (std::isfinite(found.longest_px)) {
     std::array<Eigen::Vector2d, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = s.camera().project(corners[k]).pixel;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = s.pixel_of(corners[k]);
     found.holds_corners =
         std::all_of(p.begin(), p.end(), [&](const auto& q) { return s.holds(q, border_px); });
     const Eigen::Vector2d u = p[1] - p[0];

@@ -15,6 +15,7 @@ struct Candidate {
   int view;
   double quality;     // higher is better: pixels per area, less if seen obliquely or with grown colours
   double full_share;  // of the face: on fully trusted pixels
+  Eigen::Vector3f log_color = Eigen::Vector3f::Zero();  // of light, where it was looked up
 };
 
 struct PaintedFaces {

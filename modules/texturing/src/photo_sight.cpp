@@ -16,9 +16,10 @@ constexpr double steepest_slope = 10;  // tangent of the incidence up to which t
 
 }  // namespace
 
-PhotoSight::PhotoSight(const Camera& camera, ImageF depth, Image8 trusted, double tolerance,
+PhotoSight::PhotoSight(const Camera& camera, OutlineWarp warp, ImageF depth, Image8 trusted, double tolerance,
                        double max_incidence_deg)
     : camera_(camera),
+      warp_(std::move(warp)),
       camera_from_pixel_(camera.K.inverse()),
       depth_(std::move(depth)),
       trusted_(std::move(trusted)),
@@ -30,6 +31,12 @@ bool PhotoSight::holds(const Eigen::Vector2d& pixel, double margin_px) const {
          pixel.y() <= camera_.height + margin_px;
 }
 
+std::uint8_t PhotoSight::trust_at(const Eigen::Vector2d& pixel) const {
+  if (!holds(pixel)) return trust::none;
+  return trusted_.at(std::min(static_cast<int>(pixel.x()), camera_.width - 1),
+                     std::min(static_cast<int>(pixel.y()), camera_.height - 1));
+}
+
 std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                               const Eigen::Vector3d& face_normal) const {
   const Camera::Projected seen = camera_.project(point);
@@ -38,9 +45,8 @@ std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3
   if (!holds(seen.pixel)) return trust::none;
   const double cosine = normal.dot(camera_.towards_camera(point));
   if (!(cosine >= least_cosine_)) return trust::none;
-  const int x = std::min(static_cast<int>(seen.pixel.x()), camera_.width - 1);
-  const int y = std::min(static_cast<int>(seen.pixel.y()), camera_.height - 1);
-  if (trusted_.at(x, y) == trust::none) return trust::none;
+  const std::uint8_t level = trust_at(warp_(seen.pixel));
+  if (level == trust::none) return trust::none;
   // A pixel of the depth map tells the depth within its own width only: the steeper the surface, the less
   // exactly.
   const double pixels_per_unit = std::sqrt(std::abs(camera_.K(0, 0) * camera_.K(1, 1)));
@@ -48,7 +54,7 @@ std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3
       (perspective ? seen.depth : 1.0) / pixels_per_unit * camera_.width / depth_.width();
   const double slope = std::min(steepest_slope, std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine);
   if (hidden(seen, point, normal, face_normal, tolerance_ + pixel_size * (0.5 + slope))) return trust::none;
-  return trusted_.at(x, y);
+  return level;
 }
 
 // Whether any of the pixels round it shows something in front of both planes through the point: the face's

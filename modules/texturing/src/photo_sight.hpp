@@ -6,6 +6,7 @@
 #include "drape/geometry/camera.hpp"
 #include "drape/geometry/triangle_mesh.hpp"
 #include "drape/rendering/renderer.hpp"
+#include "outline_warp.hpp"
 #include "usable_pixels.hpp"
 
 namespace drape::texturing {
@@ -16,10 +17,18 @@ class PhotoSight {
   /// `depth`: what the centre of each pixel sees (front or back), along the optical axis; as large as the
   /// photo or smaller. A point counts as hidden where it lies more than `tolerance` behind (in the unit of
   /// the mesh).
-  PhotoSight(const Camera& camera, ImageF depth, Image8 trusted, double tolerance, double max_incidence_deg);
+  PhotoSight(const Camera& camera, OutlineWarp warp, ImageF depth, Image8 trusted, double tolerance,
+             double max_incidence_deg);
 
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] const Image8& trusted() const { return trusted_; }
+
+  /// Where in the photo a point in front of the camera is looked up: its projection, warped.
+  [[nodiscard]] Eigen::Vector2d pixel_of(const Eigen::Vector3d& point) const {
+    return warp_(camera_.project(point).pixel);
+  }
+  /// How far the pixel at a position in the photo is trusted.
+  [[nodiscard]] std::uint8_t trust_at(const Eigen::Vector2d& pixel) const;
 
   /// trust::none if the photo does not see the point, sees it too obliquely, or may not use what is there;
   /// else how far the pixel it falls on is trusted. `normal`: the
@@ -38,6 +47,7 @@ class PhotoSight {
                             double tolerance) const;
 
   Camera camera_;
+  OutlineWarp warp_;
   Eigen::Matrix3d camera_from_pixel_;  // K^-1
   ImageF depth_;                       // perhaps smaller than the photo
   Image8 trusted_;

@@ -7,25 +7,25 @@
 #include <optional>
 #include <set>
 
+#include "atlas.hpp"
 #include "coverage_picture.hpp"
 #include "drape/base/error.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/rendering/renderer.hpp"
-#include "edge_splits.hpp"
-#include "grown_photo.hpp"
-#include "painted_faces.hpp"
+#include "photo_materials.hpp"
 #include "photo_sight.hpp"
+#include "unseen_surface.hpp"
 #include "usable_pixels.hpp"
 #include "view_choice.hpp"
+#include "view_colors.hpp"
 
 namespace drape::texturing {
 namespace {
 
-const Eigen::Vector3f neutral_color(0.62F, 0.62F, 0.6F);
-constexpr double straight_px = 0.2;  // how far linear texture coordinates may be from the true projection
-constexpr int most_straightenings = 12;
-constexpr int filter_margin_px = 8;       // round what is used of a photo, for filters and mip-maps
 constexpr double least_tolerance = 1e-5;  // of the mesh's extent
+constexpr double most_pose_erosion_px = 6;
+constexpr double blend_px = 12;  // how wide photos go over into each other, on each side of a seam
+constexpr int padding_px = 4;    // round the charts of an atlas
 
 void check_mesh(const TriangleMesh& mesh, const char* which) {
   const std::string problem = problem_of(mesh);
@@ -57,7 +57,22 @@ bool same_surface(const TriangleMesh& a, const TriangleMesh& b) {
 struct Sights {
   std::vector<std::size_t> views;
   std::vector<PhotoSight> sights;
+  std::vector<double> warps_px;
 };
+
+Image8 stencil_of(const ImageF& depth, const Camera& camera) {
+  Image8 stencil(camera.width, camera.height, 1, stencil::background);
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      const auto reduced = [](int at, int from, int to) {
+        return static_cast<int>(static_cast<std::int64_t>(at) * to / from);
+      };
+      if (std::isfinite(
+              depth.at(reduced(x, camera.width, depth.width()), reduced(y, camera.height, depth.height()))))
+        stencil.at(x, y) = stencil::object;
+    }
+  return stencil;
+}
 
 Sights sights_of(const TriangleMesh& simplified, const TriangleMesh& full, std::span<const TextureView> views,
                  const TextureOptions& options, const Progress& progress) {
@@ -68,9 +83,10 @@ Sights sights_of(const TriangleMesh& simplified, const TriangleMesh& full, std::
   for (std::size_t i = 0; i < views.size(); ++i) {
     progress.update(static_cast<double>(i) / static_cast<double>(views.size()),
                     "drawing what the photos see");
-    if (!views[i].usable) continue;
+    const TextureView& view = views[i];
+    if (!view.usable) continue;
     if (!full_renderer) full_renderer.emplace(full);
-    const Camera camera = depth_camera(views[i].camera);
+    const Camera camera = depth_camera(view.camera);
     rendering::DepthMap map = full_renderer->depth_map(camera);
     double tolerance = least;
     if (!same_surface(simplified, full)) {
@@ -78,45 +94,19 @@ Sights sights_of(const TriangleMesh& simplified, const TriangleMesh& full, std::
       tolerance =
           std::max(least, surface_deviation(simplified_renderer->depth_map(camera), simplified, map, camera));
     }
+    SnappedOutline snapped;
+    if (options.warp_max_px > 0 && !view.stencil.empty())
+      snapped = snapped_outline(stencil_of(map.depth, view.camera), view.stencil, options.warp_max_px);
+    const double erode_px =
+        options.stencil_erode_px + std::min(most_pose_erosion_px, std::max(0.0, view.pose_sigma_px));
     out.views.push_back(i);
-    out.sights.emplace_back(views[i].camera, std::move(map.depth),
-                            usable_pixels(views[i].stencil, views[i].rgb.width(), views[i].rgb.height(),
-                                          options.stencil_erode_px, options.fill_px),
-                            tolerance, options.max_incidence_deg);
+    out.warps_px.push_back(snapped.largest_px);
+    out.sights.emplace_back(
+        view.camera, std::move(snapped.warp), std::move(map.depth),
+        usable_pixels(view.stencil, view.rgb.width(), view.rgb.height(), erode_px, options.fill_px),
+        tolerance, options.max_incidence_deg);
   }
   return out;
-}
-
-// Halves edges until the middle of each, in the photo, lies where linear texture coordinates put it.
-void straighten(PaintedFaces& surface, std::vector<int>& chosen, const Sights& sights) {
-  for (int round = 0; round < most_straightenings; ++round) {
-    std::vector<EdgeSplit> splits;
-    for (std::size_t f = 0; f < chosen.size(); ++f) {
-      if (chosen[f] == no_view) continue;
-      const Camera& camera = sights.sights[static_cast<std::size_t>(chosen[f])].camera();
-      if (camera.projection == Camera::Projection::orthographic) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = surface.mesh.faces[f][k];
-        const std::uint32_t b = surface.mesh.faces[f][(k + 1) % 3];
-        const Eigen::Vector3d& xa = surface.mesh.vertices[a];
-        const Eigen::Vector3d& xb = surface.mesh.vertices[b];
-        const Eigen::Vector2d linear = (camera.project(xa).pixel + camera.project(xb).pixel) / 2;
-        if ((camera.project((xa + xb) / 2).pixel - linear).norm() > straight_px)
-          splits.push_back({std::min(a, b), std::max(a, b), 0.5});
-      }
-    }
-    if (splits.empty()) return;
-    SplitMesh split = split_edges(surface.mesh, splits);
-    std::vector<int> views;
-    std::vector<std::uint32_t> sets;
-    for (const std::uint32_t parent : split.parents) {
-      views.push_back(chosen[parent]);
-      sets.push_back(surface.candidate_sets[parent]);
-    }
-    surface.mesh = std::move(split.mesh);
-    surface.candidate_sets = std::move(sets);
-    chosen = std::move(views);
-  }
 }
 
 std::string material_name(const std::string& wanted, std::set<std::string>& taken) {
@@ -128,18 +118,6 @@ std::string material_name(const std::string& wanted, std::set<std::string>& take
   return unique;
 }
 
-// The pixels that the triangles use, with room for filters and for what their colours grow from.
-PixelBox used_box(const std::vector<PixelTriangle>& triangles, int width, int height, double fill_px) {
-  Eigen::AlignedBox2d box;
-  for (const PixelTriangle& t : triangles)
-    for (const Eigen::Vector2d& p : t) box.extend(p);
-  const double margin = filter_margin_px + std::ceil(fill_px);
-  return {std::max(0, static_cast<int>(std::floor(box.min().x() - margin))),
-          std::max(0, static_cast<int>(std::floor(box.min().y() - margin))),
-          std::min(width, static_cast<int>(std::ceil(box.max().x() + margin))),
-          std::min(height, static_cast<int>(std::ceil(box.max().y() + margin)))};
-}
-
 // Pixels under the painted surface, over all photos.
 struct PixelTally {
   double covered = 0;
@@ -147,67 +125,167 @@ struct PixelTally {
   double background = 0;
 };
 
-void tally(const TextureView& view, const Image8& covered, const Image8& material, const PixelBox& box,
-           const Image8& trusted, PixelTally& sum) {
+void tally(const TextureView& view, const Image8& covered, const Image8& trusted, PixelTally& sum) {
   for (int y = 0; y < covered.height(); ++y)
     for (int x = 0; x < covered.width(); ++x) {
       if (covered.at(x, y) == 0) continue;
       sum.covered += 1;
       if (view.stencil.empty() || view.stencil.at(x, y) != stencil::background) continue;
       sum.overhang += 1;
-      const bool as_it_was =
-          std::equal(&view.rgb.at(x, y), &view.rgb.at(x, y) + 3, &material.at(x - box.left, y - box.top));
-      if (as_it_was && trusted.at(x, y) == trust::full) sum.background += 1;
+      if (trusted.at(x, y) == trust::full) sum.background += 1;
     }
 }
 
-// Paints the faces of one view: its material, their texture coordinates, its coverage.
-void drape_view(const TextureView& view, const PhotoSight& sight, const std::vector<std::size_t>& faces,
-                const TextureOptions& options, std::set<std::string>& names, TextureResult& result,
-                std::size_t index, PixelTally& pixels) {
-  const int width = view.rgb.width();
-  const int height = view.rgb.height();
+// Everything between the views and the materials.
+struct Painting {
+  Sights sights;
+  PaintedFaces surface;
+  std::vector<PhotoColors> colors;  // of the sights; only where more than the photos themselves is needed
+  std::vector<Eigen::Vector3f> exposures;
+  std::vector<int> chosen;
+  bool atlas = false;
+  std::vector<VertexBlend> blends;  // of an atlas
+  std::vector<VertexGains> gains;
+};
+
+Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
+                     std::span<const TextureView> views, const TextureOptions& options,
+                     const Progress& progress) {
+  Painting p;
+  p.sights = sights_of(simplified, full, views, options, progress.part(0, 0.4));
+  const std::vector<PhotoSight>& sights = p.sights.sights;
+  p.surface = split_at_sight(simplified, sights, options.split_px, progress.part(0.4, 0.9));
+  p.atlas =
+      options.mode == TextureMode::atlas || (options.mode == TextureMode::automatic && sights.size() > 1);
+  if (p.atlas || sights.size() > 1 || options.unseen == Unseen::inpaint)
+    for (std::size_t i = 0; i < sights.size(); ++i)
+      p.colors.emplace_back(views[p.sights.views[i]].rgb, sights[i].trusted());
+  p.exposures.assign(sights.size(), Eigen::Vector3f::Zero());
+  if (sights.size() > 1) {
+    look_up_colors(p.surface, sights, p.colors);
+    const std::vector<Eigen::Vector3f> matched = matched_exposures(p.surface, sights.size());
+    apply_exposures(p.surface, matched);
+    if (options.level_seams) p.exposures = matched;
+    drop_outliers(p.surface);
+  }
+  progress.update(0.95, "choosing photos");
+  p.chosen = chosen_views(p.surface);
+  if (!p.atlas) {
+    straighten(p.surface, p.chosen, sights);
+    return p;
+  }
+  p.blends = blend_weights(p.surface, p.chosen, blend_px);
+  p.gains = options.level_seams
+                ? levelling_gains(p.surface, p.chosen, p.blends, sights, p.colors, p.exposures)
+                : no_gains(p.surface, p.chosen, p.blends);
+  return p;
+}
+
+// Mean over the painted faces round each vertex of what their photos show there.
+SeenColors seen_colors(const Painting& p) {
+  std::vector<Eigen::Vector4f> sums(p.surface.mesh.vertices.size(), Eigen::Vector4f::Zero());
+  for (std::size_t f = 0; f < p.chosen.size(); ++f) {
+    if (p.chosen[f] == no_view) continue;
+    const auto view = static_cast<std::size_t>(p.chosen[f]);
+    const Eigen::Array3f factor = p.exposures[view].array().exp();
+    for (const std::uint32_t v : p.surface.mesh.faces[f]) {
+      const Eigen::Vector2d pixel = p.sights.sights[view].pixel_of(p.surface.mesh.vertices[v]);
+      sums[v].head<3>() += (factor * p.colors[view].smooth_at(pixel).array()).matrix();
+      sums[v].w() += 1;
+    }
+  }
+  SeenColors seen(sums.size());
+  for (std::size_t v = 0; v < sums.size(); ++v)
+    if (sums[v].w() > 0) seen[v] = sums[v].head<3>() / sums[v].w();
+  return seen;
+}
+
+using FaceLists = std::vector<std::vector<std::size_t>>;
+
+// Adds up what the faces are painted with; returns the faces of each sight.
+FaceLists count_shares(const Painting& p, TextureResult& result) {
+  FaceLists faces_of(p.sights.views.size());
+  const double area = surface_area(p.surface.mesh);
+  for (std::size_t f = 0; f < p.chosen.size(); ++f) {
+    const double percent = 50 * scaled_face_normal(p.surface.mesh, f).norm() / area;
+    if (p.chosen[f] == no_view) {
+      result.unseen_percent += percent;
+      continue;
+    }
+    const auto v = static_cast<std::size_t>(p.chosen[f]);
+    const double full_share = candidate_of(p.surface, f, p.chosen[f]).full_share;
+    faces_of[v].push_back(f);
+    result.views[p.sights.views[v]].painted_percent += percent;
+    result.seen_percent += percent * full_share;
+    result.filled_percent += percent * (1 - full_share);
+  }
+  return faces_of;
+}
+
+void add_photo_materials(const Painting& p, const FaceLists& faces_of, std::span<const TextureView> views,
+                         const TextureOptions& options, std::set<std::string>& names, TextureResult& result) {
   TexturedMesh& model = result.model;
-  std::vector<PixelTriangle> triangles;
-  for (const std::size_t f : faces) {
-    PixelTriangle t;
-    for (std::size_t k = 0; k < 3; ++k) {
-      t[k] = sight.camera().project(model.mesh.vertices[model.mesh.faces[f][k]]).pixel;
-      t[k] = t[k].cwiseMax(Eigen::Vector2d::Zero()).cwiseMin(Eigen::Vector2d(width, height));
+  for (std::size_t s = 0; s < faces_of.size(); ++s) {
+    if (faces_of[s].empty()) continue;
+    const std::size_t view = p.sights.views[s];
+    const PhotoSight& sight = p.sights.sights[s];
+    PhotoMaterial painted = photo_material(
+        views[view].rgb, sight, triangles_in_photo(model.mesh, faces_of[s], sight), options.fill_px);
+    result.views[view].material = static_cast<int>(model.materials.size());
+    for (std::size_t i = 0; i < faces_of[s].size(); ++i) {
+      model.face_materials[faces_of[s][i]] = static_cast<std::uint32_t>(model.materials.size());
+      model.corner_uvs[faces_of[s][i]] = painted.corner_uvs[i];
     }
-    triangles.push_back(t);
+    Material material;
+    material.name = material_name(views[view].name, names);
+    material.image = std::move(painted.image);
+    model.materials.push_back(std::move(material));
   }
-  const Image8 covered = covered_pixels(triangles, width, height);
-  result.coverage[index] = coverage_picture(view.rgb, covered, sight.trusted());
-  if (faces.empty()) return;
-  const PixelBox box = used_box(triangles, width, height, options.fill_px);
-  const Eigen::Vector2d origin(box.left, box.top);
-  const Eigen::Vector2d size(box.width(), box.height());
-  result.views[index].material = static_cast<int>(model.materials.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    model.face_materials[faces[i]] = static_cast<std::uint32_t>(model.materials.size());
-    for (std::size_t k = 0; k < 3; ++k)
-      model.corner_uvs[faces[i]][k] = (triangles[i][k] - origin).cwiseQuotient(size).cast<float>();
-  }
-  Material material;
-  material.name = material_name(view.name, names);
-  material.image = grown_photo(view.rgb, sight.trusted(), box);
-  tally(view, covered, material.image, box, sight.trusted(), pixels);
-  model.materials.push_back(std::move(material));
 }
 
-void add_unseen_material(TextureResult& result, const std::vector<std::size_t>& faces, Unseen unseen,
-                         std::set<std::string>& names) {
-  TriangleMesh& mesh = result.model.mesh;
-  if (unseen == Unseen::neutral) mesh.colors.clear();
-  if (faces.empty()) return;
-  Material material;
+void add_atlas(const Painting& p, const TextureOptions& options, std::set<std::string>& names,
+               const Progress& progress, TextureResult& result) {
+  const AtlasPaint paint{p.surface, p.chosen, p.blends, p.gains, p.sights.sights, p.colors};
+  Atlas atlas = painted_atlas(paint, options.atlas_size_px, padding_px, progress);
+  result.texels_per_pixel = atlas.texels_per_pixel;
+  result.atlas_used_percent = atlas.used_percent;
+  result.model.corner_uvs = std::move(atlas.corner_uvs);
+  result.model.face_materials = std::move(atlas.face_pages);
+  for (std::size_t i = 0; i < atlas.pages.size(); ++i) {
+    Material material;
+    material.name = material_name(fmt::format("atlas_{:03}_color", i), names);
+    material.image = std::move(atlas.pages[i].color);
+    result.model.materials.push_back(std::move(material));
+    result.atlas_coverage.push_back(std::move(atlas.pages[i].coverage));
+  }
+}
+
+void add_coverage(const Painting& p, const FaceLists& faces_of, std::span<const TextureView> views,
+                  TextureResult& result) {
+  PixelTally pixels;
+  for (std::size_t s = 0; s < faces_of.size(); ++s) {
+    const TextureView& view = views[p.sights.views[s]];
+    const PhotoSight& sight = p.sights.sights[s];
+    const Image8 covered = covered_pixels(triangles_in_photo(p.surface.mesh, faces_of[s], sight),
+                                          view.rgb.width(), view.rgb.height());
+    result.coverage[p.sights.views[s]] = coverage_picture(view.rgb, covered, sight.trusted());
+    tally(view, covered, sight.trusted(), pixels);
+  }
+  if (pixels.covered == 0) return;
+  result.overhang_percent = 100 * pixels.overhang / pixels.covered;
+  result.background_texels_percent = 100 * pixels.background / pixels.covered;
+}
+
+void add_unseen(const Painting& p, Unseen unseen, std::set<std::string>& names, TextureResult& result) {
+  TexturedMesh& model = result.model;
+  Material material =
+      unseen_material(model.mesh, unseen, unseen == Unseen::inpaint ? seen_colors(p) : SeenColors());
+  if (std::find(p.chosen.begin(), p.chosen.end(), no_view) == p.chosen.end()) return;
   material.name = material_name("unseen", names);
-  if (mesh.colors.empty()) material.flat_color = neutral_color;
-  result.unseen_in_scan_colour = !mesh.colors.empty();
-  for (const std::size_t f : faces)
-    result.model.face_materials[f] = static_cast<std::uint32_t>(result.model.materials.size());
-  result.model.materials.push_back(std::move(material));
+  result.unseen_in_scan_colour = unseen == Unseen::scan_colour && !model.mesh.colors.empty();
+  for (std::size_t f = 0; f < p.chosen.size(); ++f)
+    if (p.chosen[f] == no_view) model.face_materials[f] = static_cast<std::uint32_t>(model.materials.size());
+  model.materials.push_back(std::move(material));
 }
 
 }  // namespace
@@ -219,53 +297,29 @@ TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& f
   check_mesh(full, "full");
   for (const TextureView& view : views) check_view(view);
 
-  const Sights sights = sights_of(simplified, full, views, options, progress.part(0, 0.3));
-  PaintedFaces surface = split_at_sight(simplified, sights.sights, options.split_px, progress.part(0.3, 0.7));
-  std::vector<int> chosen = chosen_views(surface);
-  straighten(surface, chosen, sights);
-
+  const Painting p = painting_of(simplified, full, views, options, progress.part(0, 0.7));
   TextureResult result;
   result.views.resize(views.size());
   result.coverage.resize(views.size());
-  result.model.mesh = surface.mesh;
-  result.model.corner_uvs.assign(chosen.size(),
+  result.model.mesh = p.surface.mesh;
+  result.model.corner_uvs.assign(p.chosen.size(),
                                  {Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()});
-  result.model.face_materials.assign(chosen.size(), 0);
-
-  std::vector<std::vector<std::size_t>> faces_of(sights.views.size());
-  std::vector<std::size_t> unseen;
-  const double area = surface_area(surface.mesh);
-  for (std::size_t f = 0; f < chosen.size(); ++f) {
-    const double percent = 50 * scaled_face_normal(surface.mesh, f).norm() / area;
-    if (chosen[f] == no_view) {
-      unseen.push_back(f);
-      result.unseen_percent += percent;
-      continue;
-    }
-    const auto v = static_cast<std::size_t>(chosen[f]);
-    const double full_share = candidate_of(surface, f, chosen[f]).full_share;
-    faces_of[v].push_back(f);
-    result.views[sights.views[v]].painted_percent += percent;
-    result.seen_percent += percent * full_share;
-    result.filled_percent += percent * (1 - full_share);
-  }
+  result.model.face_materials.assign(p.chosen.size(), 0);
+  const FaceLists faces_of = count_shares(p, result);
   std::set<std::string> names;
-  PixelTally pixels;
-  for (std::size_t v = 0; v < faces_of.size(); ++v) {
-    progress.update(0.7 + 0.3 * static_cast<double>(v) / static_cast<double>(faces_of.size()), "painting");
-    drape_view(views[sights.views[v]], sights.sights[v], faces_of[v], options, names, result, sights.views[v],
-               pixels);
-  }
+  if (p.atlas)
+    add_atlas(p, options, names, progress.part(0.7, 0.95), result);
+  else
+    add_photo_materials(p, faces_of, views, options, names, result);
+  add_coverage(p, faces_of, views, result);
+  for (std::size_t s = 0; s < p.sights.views.size(); ++s)
+    result.views[p.sights.views[s]].warp_px = p.sights.warps_px[s];
   for (std::size_t i = 0; i < views.size(); ++i)
     if (!views[i].usable)
       result.views[i].reason = "not usable";
-    else if (result.views[i].material < 0)
+    else if (result.views[i].painted_percent == 0)
       result.views[i].reason = "sees nothing of the model that others do not see better";
-  if (pixels.covered > 0) {
-    result.overhang_percent = 100 * pixels.overhang / pixels.covered;
-    result.background_texels_percent = 100 * pixels.background / pixels.covered;
-  }
-  add_unseen_material(result, unseen, options.unseen, names);
+  add_unseen(p, options.unseen, names, result);
   progress.update(1);
   return result;
 }

@@ -1,50 +1,84 @@
 #include "view_choice.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <cmath>
+
+#include "face_edges.hpp"
+#include "tree_reweighted.hpp"
 
 namespace drape::texturing {
 namespace {
 
-constexpr double smoothness =
-    0.5;  // what agreeing with all neighbours is worth, in shares of the best quality
-constexpr int most_sweeps = 20;
-constexpr std::uint32_t nobody = 0xffffffff;
+constexpr std::size_t most_candidates = 8;
+constexpr int most_sweeps = 24;
+// A pixel of seam costs as much as painting this many square pixels with nothing; where the colours of the
+// photos differ, more per unit of log light.
+constexpr double seam_px = 2;
+constexpr double disagreement_px = 10;
 
-struct Side {
-  std::uint32_t neighbor = nobody;
-  double share = 0;  // of the face's outline
-};
+using Labels = std::vector<const Candidate*>;
 
-std::vector<std::array<Side, 3>> neighbors_of(const TriangleMesh& mesh) {
-  struct Edge {
-    std::uint32_t low, high, face, side;
+std::vector<Labels> labels_of(const PaintedFaces& surface) {
+  std::vector<Labels> labels(surface.mesh.faces.size());
+  for (std::size_t f = 0; f < labels.size(); ++f) {
+    for (const Candidate& c : surface.candidates[surface.candidate_sets[f]]) labels[f].push_back(&c);
+    std::stable_sort(labels[f].begin(), labels[f].end(),
+                     [](const Candidate* a, const Candidate* b) { return a->quality > b->quality; });
+    if (labels[f].size() > most_candidates) labels[f].resize(most_candidates);
+  }
+  return labels;
+}
+
+// Pixels per unit length where the surface is seen best, typically.
+double typical_resolution(const std::vector<Labels>& labels) {
+  std::vector<double> best;
+  for (const Labels& l : labels)
+    if (!l.empty()) best.push_back(std::sqrt(l.front()->quality));
+  if (best.empty()) return 1;
+  const auto middle = best.begin() + static_cast<std::ptrdiff_t>(best.size() / 2);
+  std::nth_element(best.begin(), middle, best.end());
+  return *middle;
+}
+
+double seam_cost(const Candidate& a, const Labels& of_a, const Candidate& b, const Labels& of_b) {
+  if (a.view == b.view) return 0;
+  double difference = 0;
+  double known = 0;
+  const auto compare = [&](const Candidate& own, int other_view, const Labels& labels) {
+    for (const Candidate* c : labels)
+      if (c->view == other_view) {
+        difference += (c->log_color - own.log_color).cwiseAbs().mean();
+        known += 1;
+      }
   };
-  std::vector<Edge> edges;
-  std::vector<std::array<Side, 3>> sides(mesh.faces.size());
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    std::array<double, 3> length{};
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.faces[f][k];
-      const std::uint32_t b = mesh.faces[f][(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), f, k});
-      length[k] = (mesh.vertices[a] - mesh.vertices[b]).norm();
-    }
-    const double outline = length[0] + length[1] + length[2];
-    for (std::size_t k = 0; k < 3; ++k) sides[f][k].share = outline > 0 ? length[k] / outline : 0;
+  compare(a, b.view, of_a);
+  compare(b, a.view, of_b);
+  constexpr double of_the_unknown = 0.3;  // a seam where one photo sees only one side
+  return seam_px + disagreement_px * (known > 0 ? difference / known : of_the_unknown);
+}
+
+LabelProblem problem_of(const TriangleMesh& mesh, const std::vector<Labels>& labels) {
+  LabelProblem problem;
+  const double resolution = typical_resolution(labels);
+  for (std::size_t f = 0; f < labels.size(); ++f) {
+    const double area_px = scaled_face_normal(mesh, f).norm() / 2 * resolution * resolution;
+    for (const Candidate* c : labels[f])
+      problem.unary.push_back(
+          static_cast<float>(area_px * (1 - c->quality / std::max(labels[f].front()->quality, 1e-300))));
+    problem.first_label.push_back(static_cast<std::uint32_t>(problem.unary.size()));
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) {
-    return std::array{x.low, x.high, x.face} < std::array{y.low, y.high, y.face};
-  });
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const Edge& x = edges[i];
-    const Edge& y = edges[i + 1];
-    if (x.low != y.low || x.high != y.high) continue;
-    sides[x.face][x.side].neighbor = y.face;
-    sides[y.face][y.side].neighbor = x.face;
+  for (const FaceEdge& e : face_edges(mesh)) {
+    const Labels& first = labels[e.first];
+    const Labels& second = labels[e.second];
+    if (first.empty() || second.empty()) continue;
+    const double length_px = (mesh.vertices[e.low] - mesh.vertices[e.high]).norm() * resolution;
+    problem.edges.push_back({e.first, e.second, static_cast<std::uint32_t>(problem.pairwise.size())});
+    for (const Candidate* a : first)
+      for (const Candidate* b : second)
+        problem.pairwise.push_back(static_cast<float>(length_px * seam_cost(*a, first, *b, second)));
   }
-  return sides;
+  return problem;
 }
 
 }  // namespace
@@ -57,38 +91,14 @@ const Candidate& candidate_of(const PaintedFaces& surface, std::size_t face, int
 }
 
 std::vector<int> chosen_views(const PaintedFaces& surface) {
-  std::vector<int> views(surface.mesh.faces.size(), no_view);
-  std::vector<double> best(views.size(), 0);
-  bool several = false;
-  for (std::size_t f = 0; f < views.size(); ++f) {
-    for (const Candidate& c : surface.candidates[surface.candidate_sets[f]])
-      if (views[f] == no_view || c.quality > best[f]) {
-        several = several || views[f] != no_view;
-        best[f] = c.quality;
-        views[f] = c.view;
-      }
-    several = several || surface.candidates[surface.candidate_sets[f]].size() > 1;
-  }
-  if (!several) return views;
-  const std::vector<std::array<Side, 3>> sides = neighbors_of(surface.mesh);
-  bool changed = true;
-  for (int sweep = 0; changed && sweep < most_sweeps; ++sweep) {
-    changed = false;
-    for (std::size_t f = 0; f < views.size(); ++f) {
-      int preferred = views[f];
-      double most = -1;
-      for (const Candidate& c : surface.candidates[surface.candidate_sets[f]]) {
-        double score = best[f] > 0 ? c.quality / best[f] : 0;
-        for (const Side& s : sides[f])
-          if (s.neighbor != nobody && views[s.neighbor] == c.view) score += smoothness * s.share;
-        if (score <= most) continue;
-        most = score;
-        preferred = c.view;
-      }
-      changed = changed || preferred != views[f];
-      views[f] = preferred;
-    }
-  }
+  const std::vector<Labels> labels = labels_of(surface);
+  std::vector<int> views(labels.size(), no_view);
+  const bool several =
+      std::any_of(labels.begin(), labels.end(), [](const Labels& l) { return l.size() > 1; });
+  std::vector<std::uint32_t> chosen(labels.size(), 0);
+  if (several) chosen = least_cost_labels(problem_of(surface.mesh, labels), most_sweeps).labels;
+  for (std::size_t f = 0; f < labels.size(); ++f)
+    if (!labels[f].empty()) views[f] = labels[f][chosen[f]]->view;
   return views;
 }
 

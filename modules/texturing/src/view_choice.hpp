@@ -7,8 +7,10 @@ namespace drape::texturing {
 
 inline constexpr int no_view = -1;
 
-/// Per face the view that paints it, or no_view. Starts from the best candidate of each face, then lets every
-/// face prefer what its neighbours took, until nothing changes (iterated conditional modes: Besag 1986).
+/// Per face the view that paints it, or no_view: the least of how much worse than its best photo each face is
+/// painted, by its area, plus what seams cost by their length, more where the photos disagree (Lempitsky and
+/// Ivanov, "Seamless Mosaicing of Image-Based Texture Maps", CVPR 2007, equation 1). Only the best few
+/// photos of a face are weighed.
 [[nodiscard]] std::vector<int> chosen_views(const PaintedFaces& surface);
 
 /// The candidate of a face for a view that chosen_views gave it.

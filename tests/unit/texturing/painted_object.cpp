@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "drape/rendering/renderer.hpp"
+#include "face_edges.hpp"
 
 namespace drape::texturing {
 namespace {
@@ -98,6 +99,34 @@ double least_distance_to(const TexturedMesh& model, const Eigen::Vector3d& other
     least = std::min(least, (color - other).norm());
   });
   return least;
+}
+
+double mean_step_across_seams(const TexturedMesh& model) {
+  double sum = 0;
+  double length = 0;
+  const auto sides_of = [&](std::uint32_t f, std::uint32_t vertex) -> Eigen::Vector2d {
+    const Face& face = model.mesh.faces[f];
+    const auto k = std::find(face.begin(), face.end(), vertex) - face.begin();
+    return model.corner_uvs[f][static_cast<std::size_t>(k)].cast<double>();
+  };
+  for (const FaceEdge& e : face_edges(model.mesh)) {
+    if (!is_painted(model, e.first) || !is_painted(model, e.second)) continue;
+    if (model.face_materials[e.first] == model.face_materials[e.second] &&
+        sides_of(e.first, e.low) == sides_of(e.second, e.low))
+      continue;
+    const double weight = (model.mesh.vertices[e.low] - model.mesh.vertices[e.high]).norm();
+    for (const double t : {0.25, 0.5, 0.75}) {
+      std::array<Eigen::Vector3d, 2> colors;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const std::uint32_t f = i == 0 ? e.first : e.second;
+        colors[i] = sampled(model.materials[model.face_materials[f]].image,
+                            (1 - t) * sides_of(f, e.low) + t * sides_of(f, e.high));
+      }
+      sum += weight * (colors[0] - colors[1]).cwiseAbs().maxCoeff();
+      length += weight;
+    }
+  }
+  return length > 0 ? sum / length : 0;
 }
 
 double painted_area(const TexturedMesh& model) {

@@ -47,6 +47,10 @@ struct Shot {
 /// The least "distance from background colour" over points spread over all painted faces.
 [[nodiscard]] double least_distance_to(const TexturedMesh& model, const Eigen::Vector3d& color);
 
+/// Mean difference (largest channel, stored 0..255) between the two sides of edges that are seams: painted on
+/// both sides, from elsewhere in the images or from different ones.
+[[nodiscard]] double mean_step_across_seams(const TexturedMesh& model);
+
 [[nodiscard]] double painted_area(const TexturedMesh& model);
 
 /// Empty if texture coordinates, materials and attributes are as TexturedMesh promises.

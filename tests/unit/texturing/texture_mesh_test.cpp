@@ -205,7 +205,9 @@ TEST(TextureMesh, TwoPhotosShareTheSphere) {
   const std::vector<Shot> shots = {photographed(sphere, from({5, 0, 0.5}), paint),
                                    photographed(sphere, from({-5, 0, 0.5}), paint),
                                    photographed(sphere, from({5, 0, 0.5}, 40, 30), paint)};
-  const TextureResult result = textured(sphere, shots);
+  TextureOptions options;
+  options.mode = TextureMode::project;
+  const TextureResult result = textured(sphere, shots, options);
   expect_sound(result);
   EXPECT_EQ(result.views[0].material, 0);
   EXPECT_EQ(result.views[1].material, 1);
@@ -348,19 +350,24 @@ TEST(TextureMesh, IsTheSameForAnyNumberOfThreads) {
   const TriangleMesh torus = test::torus(1, 0.4);
   const std::vector<Shot> shots = {photographed(torus, from({3, 1, 1.4}), waves(0.7)),
                                    photographed(torus, from({-1, 3, 1.4}), waves(0.7))};
-  set_thread_count(1);
-  const TextureResult one = textured(torus, shots);
-  set_thread_count(4);
-  const TextureResult four = textured(torus, shots);
-  set_thread_count(0);
-  EXPECT_EQ(one.model.mesh.faces, four.model.mesh.faces);
-  EXPECT_EQ(one.model.mesh.vertices, four.model.mesh.vertices);
-  EXPECT_EQ(one.model.corner_uvs, four.model.corner_uvs);
-  EXPECT_EQ(one.model.face_materials, four.model.face_materials);
-  ASSERT_EQ(one.model.materials.size(), four.model.materials.size());
-  for (std::size_t i = 0; i < one.model.materials.size(); ++i)
-    EXPECT_EQ(one.model.materials[i].image, four.model.materials[i].image);
-  EXPECT_EQ(one.coverage, four.coverage);
+  for (const TextureMode mode : {TextureMode::project, TextureMode::atlas}) {
+    TextureOptions options;
+    options.mode = mode;
+    set_thread_count(1);
+    const TextureResult one = textured(torus, shots, options);
+    set_thread_count(4);
+    const TextureResult four = textured(torus, shots, options);
+    set_thread_count(0);
+    EXPECT_EQ(one.model.mesh.faces, four.model.mesh.faces);
+    EXPECT_EQ(one.model.mesh.vertices, four.model.mesh.vertices);
+    EXPECT_EQ(one.model.corner_uvs, four.model.corner_uvs);
+    EXPECT_EQ(one.model.face_materials, four.model.face_materials);
+    ASSERT_EQ(one.model.materials.size(), four.model.materials.size());
+    for (std::size_t i = 0; i < one.model.materials.size(); ++i)
+      EXPECT_EQ(one.model.materials[i].image, four.model.materials[i].image);
+    EXPECT_EQ(one.coverage, four.coverage);
+    EXPECT_EQ(one.atlas_coverage, four.atlas_coverage);
+  }
 }
 
 TEST(TextureMesh, MovesWithTheWorld) {

@@ -113,7 +113,9 @@ TEST(NastyMeshes, NamesOfMaterialsAreCleanAndDifferent) {
   std::vector<TextureView> views;
   views.push_back({front.photo, front.camera, front.no_stencil, "unseen é.jpg"});
   views.push_back({back.photo, back.camera, back.no_stencil, "unseen é.jpg"});
-  const TextureResult result = texture_mesh(sphere, sphere, views, {});
+  TextureOptions options;
+  options.mode = TextureMode::project;
+  const TextureResult result = texture_mesh(sphere, sphere, views, options);
   ASSERT_EQ(result.model.materials.size(), 3U);
   for (const Material& m : result.model.materials)
     EXPECT_EQ(m.name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_"),

@@ -1,0 +1,228 @@
+#include "atlas.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "atlas_packing.hpp"
+#include "drape/base/parallel.hpp"
+#include "linear_light.hpp"
+#include "pull_push.hpp"
+#include "triangle_raster.hpp"
+#include "usable_pixels.hpp"
+#include "view_choice.hpp"
+
+namespace drape::texturing {
+namespace {
+
+constexpr std::size_t most_pages = 12;
+constexpr int band_rows = 64;
+constexpr double fringe_px =
+    1.5;  // texels round a chart that are sampled, not grown: bilinear filters read them
+
+// One photo's part in a face: weights and light factors at its corners.
+struct Share {
+  int view;
+  Eigen::Vector3f weights;
+  Eigen::Matrix3f factors;  // column k: of corner k
+};
+using Shares = std::vector<Share>;
+
+struct PageFace {
+  std::uint32_t face;
+  FaceTexels texels;  // on the page
+  Shares shares;
+};
+
+Shares shares_of(const AtlasPaint& paint, std::uint32_t f) {
+  Shares shares;
+  const Face& face = paint.surface.mesh.faces[f];
+  const auto share_of = [&](int view) -> Share& {
+    for (Share& s : shares)
+      if (s.view == view) return s;
+    shares.push_back({view, Eigen::Vector3f::Zero(), Eigen::Matrix3f::Ones()});
+    return shares.back();
+  };
+  for (int k = 0; k < 3; ++k) {
+    const VertexBlend& blend = paint.blends[face[static_cast<std::size_t>(k)]];
+    if (blend.empty()) share_of(paint.chosen[f]).weights[k] = 1;
+    for (const ViewWeight& w : blend) share_of(w.view).weights[k] = w.weight;
+  }
+  for (Share& s : shares) {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    float known = 0;
+    std::array<const ViewGain*, 3> gains{};
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const ViewGain& g : paint.gains[face[k]])
+        if (g.view == s.view) {
+          gains[k] = &g;
+          sum += g.gain;
+          known += 1;
+        }
+    // A corner where the photo has no weight has no correction either; any that goes on smoothly will do.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3f gain =
+          gains[k] != nullptr ? gains[k]->gain : Eigen::Vector3f(sum / std::max(1.F, known));
+      s.factors.col(static_cast<Eigen::Index>(k)) = gain.array().exp();
+    }
+  }
+  return shares;
+}
+
+class PagePainter {
+ public:
+  PagePainter(const AtlasPaint& paint, std::vector<PageFace> faces, int side)
+      : paint_(paint),
+        faces_(std::move(faces)),
+        side_(side),
+        pixels_(side, side),
+        coverage_(side, side, 3, 0) {
+    bands_.resize(static_cast<std::size_t>((side + band_rows - 1) / band_rows));
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const FaceTexels& t = faces_[i].texels;
+      const auto [least, most] = std::minmax({t[0].y(), t[1].y(), t[2].y()});
+      const auto band = [&](double y) {
+        return std::clamp(static_cast<int>(std::floor(y / band_rows)), 0,
+                          static_cast<int>(bands_.size()) - 1);
+      };
+      for (int b = band(least - fringe_px); b <= band(most + fringe_px); ++b)
+        bands_[static_cast<std::size_t>(b)].push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  AtlasPage painted() {
+    parallel_for(bands_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        paint_band(static_cast<int>(b), 0);
+        paint_band(static_cast<int>(b), fringe_px);
+      }
+    });
+    pixels_ = pull_pushed(std::move(pixels_));
+    AtlasPage page{Image8(side_, side_, 3), std::move(coverage_)};
+    for (int y = 0; y < side_; ++y)
+      for (int x = 0; x < side_; ++x)
+        for (int c = 0; c < 3; ++c) page.color.at(x, y, c) = byte_from_linear(pixels_.at(x, y)[c]);
+    return page;
+  }
+
+ private:
+  void paint_band(int band, double margin) {
+    const TexelBounds bounds{0, band * band_rows, side_, std::min(side_, (band + 1) * band_rows)};
+    for (const std::uint32_t i : bands_[static_cast<std::size_t>(band)]) {
+      const PageFace& f = faces_[i];
+      for_texels(f.texels, margin, bounds, [&](int x, int y, const Eigen::Vector3d& weights) {
+        if (pixels_.at(x, y).w() > 0) return;
+        pixels_.at(x, y) << color_of(f, weights), 1;
+        if (margin == 0) mark(f, weights, x, y);
+      });
+    }
+  }
+
+  // Texture coordinates are linear over a face, and so is the way from a texel to its point in space.
+  [[nodiscard]] Eigen::Vector3d point_of(const PageFace& f, const Eigen::Vector3d& weights) const {
+    const TriangleMesh& mesh = paint_.surface.mesh;
+    const Face& face = mesh.faces[f.face];
+    return weights[0] * mesh.vertices[face[0]] + weights[1] * mesh.vertices[face[1]] +
+           weights[2] * mesh.vertices[face[2]];
+  }
+
+  [[nodiscard]] Eigen::Vector3f color_of(const PageFace& f, const Eigen::Vector3d& weights) const {
+    const Eigen::Vector3d x = point_of(f, weights);
+    const Eigen::Vector3f w = weights.cast<float>();
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    float all = 0;
+    for (const Share& s : f.shares) {
+      const float share = f.shares.size() == 1 ? 1.F : std::max(0.F, s.weights.dot(w));
+      if (share <= 0) continue;
+      const auto v = static_cast<std::size_t>(s.view);
+      sum += share * (s.factors * w).cwiseProduct(paint_.colors[v].at(paint_.sights[v].pixel_of(x)));
+      all += share;
+    }
+    return all > 0 ? Eigen::Vector3f(sum / all) : sum;
+  }
+
+  void mark(const PageFace& f, const Eigen::Vector3d& weights, int x, int y) {
+    const PhotoSight& sight = paint_.sights[static_cast<std::size_t>(paint_.chosen[f.face])];
+    const std::array<std::uint8_t, 3> shown =
+        sight.trust_at(sight.pixel_of(point_of(f, weights))) == trust::full
+            ? color_of_view(paint_.chosen[f.face])
+            : std::array<std::uint8_t, 3>{255, 140, 0};
+    for (int c = 0; c < 3; ++c) coverage_.at(x, y, c) = shown[static_cast<std::size_t>(c)];
+  }
+
+  // Blues, greens and violets, far from the orange of grown colours.
+  static std::array<std::uint8_t, 3> color_of_view(int view) {
+    const auto step = [&](int multiplier, int least, int range) {
+      return static_cast<std::uint8_t>(least + (view * multiplier + 31) % range);
+    };
+    return {step(67, 30, 120), step(101, 60, 190), step(149, 110, 140)};
+  }
+
+  const AtlasPaint& paint_;
+  std::vector<PageFace> faces_;
+  int side_;
+  WeightedPixels pixels_;
+  Image8 coverage_;
+  std::vector<std::vector<std::uint32_t>> bands_;
+};
+
+struct Layout {
+  std::vector<Chart> charts;
+  Packing packing;
+  double scale = 1;
+};
+
+Layout laid_out(const AtlasPaint& paint, int most_side, int padding) {
+  Layout layout;
+  for (;; layout.scale *= 0.8) {
+    layout.charts = charts_of(paint.surface, paint.chosen, paint.sights, layout.scale, padding, most_side);
+    std::vector<Rectangle> rectangles;
+    for (const Chart& c : layout.charts) rectangles.push_back({c.width, c.height});
+    layout.packing = packed(rectangles, most_side);
+    // Thousands of tiny charts may be nothing but padding: smaller ones would not help.
+    constexpr double least_scale = 0.01;
+    if (layout.packing.sides.size() <= most_pages || layout.scale < least_scale) return layout;
+  }
+}
+
+}  // namespace
+
+Atlas painted_atlas(const AtlasPaint& paint, int most_side, int padding_px, const Progress& progress) {
+  progress.update(0, "laying out the atlas");
+  const Layout layout = laid_out(paint, most_side, padding_px);
+  Atlas atlas;
+  atlas.face_pages.assign(paint.chosen.size(), 0);
+  atlas.corner_uvs.assign(paint.chosen.size(),
+                          {Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()});
+  std::vector<std::vector<PageFace>> faces(layout.packing.sides.size());
+  double used = 0;
+  double all = 0;
+  double pixels = 0;
+  for (std::size_t c = 0; c < layout.charts.size(); ++c) {
+    const Chart& chart = layout.charts[c];
+    const Placement& place = layout.packing.placements[c];
+    const auto page = static_cast<std::size_t>(place.page);
+    const Eigen::Vector2d corner(place.left, place.top);
+    used += static_cast<double>(chart.width) * chart.height;
+    pixels += static_cast<double>(chart.width) * chart.height / (chart.scale * chart.scale);
+    for (std::size_t i = 0; i < chart.faces.size(); ++i) {
+      PageFace f{chart.faces[i], chart.texels[i], shares_of(paint, chart.faces[i])};
+      for (std::size_t k = 0; k < 3; ++k) {
+        f.texels[k] += corner;
+        atlas.corner_uvs[f.face][k] = (f.texels[k] / layout.packing.sides[page]).cast<float>();
+      }
+      atlas.face_pages[f.face] = static_cast<std::uint32_t>(page);
+      faces[page].push_back(std::move(f));
+    }
+  }
+  for (std::size_t page = 0; page < faces.size(); ++page) {
+    progress.update(0.1 + 0.9 * static_cast<double>(page) / static_cast<double>(faces.size()), "painting");
+    const int side = layout.packing.sides[page];
+    all += static_cast<double>(side) * side;
+    atlas.pages.push_back(PagePainter(paint, std::move(faces[page]), side).painted());
+  }
+  if (pixels > 0) atlas.texels_per_pixel = std::sqrt(used / pixels);
+  atlas.used_percent = all > 0 ? 100 * used / all : 0;
+  return atlas;
+}
+
+}  // namespace drape::texturing

@@ -1,0 +1,28 @@
+// The colours of one photo, with the object's grown over everything else.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "grown_photo.hpp"
+
+namespace drape::texturing {
+
+class PhotoColors {
+ public:
+  /// Grown within the box of the pixels that may be used and a margin for filters.
+  PhotoColors(const Image8& rgb, const Image8& trusted);
+
+  /// Linear light between the four pixels round a position in the photo; beyond the box as on its border.
+  [[nodiscard]] Eigen::Vector3f at(const Eigen::Vector2d& pixel) const;
+  /// Mean of the 3 x 3 pixels round it: less noise.
+  [[nodiscard]] Eigen::Vector3f smooth_at(const Eigen::Vector2d& pixel) const;
+
+ private:
+  PixelBox box_;
+  Image8 grown_;
+};
+
+/// Log of light, with a floor that keeps the noise of dark colours small.
+[[nodiscard]] Eigen::Vector3f log_light(const Eigen::Vector3f& linear);
+
+}  // namespace drape::texturing
