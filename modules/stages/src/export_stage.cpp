@@ -1,7 +1,9 @@
 #include <fmt/core.h>
 
 #include "drape/base/files.hpp"
+#include "drape/base/log.hpp"
 #include "drape/geometry/bounding_box.hpp"
+#include "drape/io/camera_sidecars.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
@@ -18,6 +20,11 @@ struct ExportOptions {
   bool glb = true;
   bool obj = true;
   bool ply = true;
+  bool colored_ply = false;
+  bool stl = false;
+  bool colmap = false;
+  bool meshlab = false;
+  bool metashape = false;
   ExportUnits units = ExportUnits::input;
   bool unlit = true;
   TextureFormat glb_textures = TextureFormat::png;
@@ -27,9 +34,14 @@ void describe(Binder& b, ExportOptions& o) {
   b.flag("glb", o.glb, "write model.glb (glTF 2.0): metres, y up, about a local origin");
   b.flag("obj", o.obj, "write model.obj with model.mtl and its pictures");
   b.flag("ply", o.ply, "write model.ply with texture coordinates");
+  b.flag("colored_ply", o.colored_ply, "write model_colors.ply: a colour per vertex and no pictures");
+  b.flag("stl", o.stl, "write model.stl: the shape alone");
+  b.flag("colmap", o.colmap, "write the cameras as COLMAP's text files into colmap/");
+  b.flag("meshlab", o.meshlab, "write model.mlp: a MeshLab project with the photos as rasters");
+  b.flag("metashape", o.metashape, "write metashape.xml: the cameras as Metashape imports them");
   b.choice("units", o.units,
            {{"input", ExportUnits::input}, {"m", ExportUnits::metres}, {"mm", ExportUnits::millimetres}},
-           "units of the OBJ and the PLY; input: those of the scans, so that the model lies over them");
+           "units of all files but the GLB; input: those of the scans, so that the model lies over them");
   b.flag("unlit", o.unlit, "GLB: viewers show the photo's own light and add none (KHR_materials_unlit)");
   b.choice("glb_textures", o.glb_textures, {{"png", TextureFormat::png}, {"jpeg", TextureFormat::jpeg}},
            "GLB: PNG keeps every texel, JPEG is smaller");
@@ -75,14 +87,68 @@ void write_gltf(const ExportOptions& options, const TexturedMesh& model, const i
   io::write_glb(run.output("model.glb"), model, transform, rotation * (origin + frame.world_offset_m), glb);
 }
 
-TexturedMesh in_output_units(const ExportOptions& options, const TexturedMesh& model,
-                             const io::WorkspaceFrame& frame) {
-  io::WorkspaceFrame target = frame;
-  if (options.units == ExportUnits::metres) target.metres_per_input_unit = 1;
-  if (options.units == ExportUnits::millimetres) target.metres_per_input_unit = 0.001;
+io::WorkspaceFrame output_frame(const ExportOptions& options, io::WorkspaceFrame frame) {
+  if (options.units == ExportUnits::metres) frame.metres_per_input_unit = 1;
+  if (options.units == ExportUnits::millimetres) frame.metres_per_input_unit = 0.001;
+  return frame;
+}
+
+TexturedMesh in_output_frame(const TexturedMesh& model, const io::WorkspaceFrame& frame) {
   TexturedMesh moved = model;
-  for (Eigen::Vector3d& vertex : moved.mesh.vertices) vertex = target.to_input(vertex);
+  for (Eigen::Vector3d& vertex : moved.mesh.vertices) vertex = frame.to_input(vertex);
   return moved;
+}
+
+// x_camera = R (x_output * metres per unit - offset) + t, in output units.
+std::vector<io::SidecarCamera> cameras_in(const io::WorkspaceFrame& frame, const io::CamerasRecord& record) {
+  std::vector<io::SidecarCamera> cameras;
+  for (const io::CameraRecord& c : record.cameras) {
+    if (c.verdict == io::Verdict::reject) continue;
+    io::SidecarCamera sidecar{c.photo, c.camera};
+    Rigid3& camera_from_world = sidecar.camera.camera_from_world;
+    camera_from_world.translation() =
+        (camera_from_world.translation() - camera_from_world.linear() * frame.world_offset_m) /
+        frame.metres_per_input_unit;
+    cameras.push_back(std::move(sidecar));
+  }
+  return cameras;
+}
+
+// What a format cannot hold is left out with the reason; the model is worth having without it.
+void write_sidecars(const ExportOptions& options, const std::vector<io::SidecarCamera>& cameras,
+                    pipeline::StageRun& run) {
+  const auto holds = [&](io::SidecarFormat format, const std::string& name) {
+    for (const io::SidecarCamera& c : cameras) {
+      const std::string reason = io::reason_not_held(format, c.camera);
+      if (reason.empty()) continue;
+      log::warn("export.{}: not written: the camera of {} {}", name, c.photo, reason);
+      run.metric(name + "_not_written", c.photo + " " + reason);
+      return false;
+    }
+    return true;
+  };
+  if (options.colmap && holds(io::SidecarFormat::colmap, "colmap"))
+    io::write_colmap(run.output("colmap/cameras.txt").parent_path(), cameras);
+  if (options.meshlab && holds(io::SidecarFormat::meshlab, "meshlab"))
+    io::write_meshlab_project(run.output("model.mlp"), "model.ply", cameras);
+  if (options.metashape && holds(io::SidecarFormat::metashape, "metashape"))
+    io::write_metashape_xml(run.output("metashape.xml"), cameras);
+}
+
+void write_models(const ExportOptions& options, const TexturedMesh& moved, pipeline::StageRun& run) {
+  std::vector<std::string> pictures;
+  for (const Material& material : moved.materials)
+    pictures.push_back(material.image.empty() ? "" : "model_" + material.name + ".png");
+  // The OBJ brings the pictures along; the PLY names the same ones.
+  if (options.obj) io::write_obj(run.output("model.obj"), moved);
+  if (options.ply) {
+    io::write_textured_ply(run.output("model.ply"), moved, pictures);
+    if (!options.obj)
+      for (std::size_t i = 0; i < pictures.size(); ++i)
+        if (!pictures[i].empty()) io::write_image(run.output(pictures[i]), moved.materials[i].image);
+  }
+  if (options.colored_ply) io::write_mesh_ply(run.output("model_colors.ply"), io::with_vertex_colors(moved));
+  if (options.stl) io::write_stl(run.output("model.stl"), moved.mesh);
 }
 
 void run(const ExportOptions& options, pipeline::StageRun& run) {
@@ -90,22 +156,13 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
   const io::WorkspaceFrame frame = io::read_holes(run.artifact("fill", "holes.json")).frame;
   if (options.glb) write_gltf(options, model, frame, run);
   run.progress().update(0.5);
-  if (options.obj || options.ply) {
-    const TexturedMesh moved = in_output_units(options, model, frame);
-    std::vector<std::string> pictures;
-    for (const Material& material : moved.materials)
-      pictures.push_back(material.image.empty() ? "" : "model_" + material.name + ".png");
-    // The OBJ brings the pictures along; the PLY names the same ones.
-    if (options.obj) io::write_obj(run.output("model.obj"), moved);
-    if (options.ply) {
-      io::write_textured_ply(run.output("model.ply"), moved, pictures);
-      if (!options.obj)
-        for (std::size_t i = 0; i < pictures.size(); ++i)
-          if (!pictures[i].empty()) io::write_image(run.output(pictures[i]), moved.materials[i].image);
-    }
+  const io::WorkspaceFrame target = output_frame(options, frame);
+  write_models(options, in_output_frame(model, target), run);
+  if (run.has_artifact("align", "cameras.json")) {
+    const std::filesystem::path file = run.artifact("align", "cameras.json");
+    write_file(run.output("cameras.json"), read_file(file));
+    write_sidecars(options, cameras_in(target, io::read_cameras(file)), run);
   }
-  if (run.has_artifact("align", "cameras.json"))
-    write_file(run.output("cameras.json"), read_file(run.artifact("align", "cameras.json")));
   run.metric("vertices", static_cast<double>(model.mesh.vertices.size()));
   run.metric("faces", static_cast<double>(model.mesh.faces.size()));
 }
@@ -122,7 +179,9 @@ pipeline::Stage export_stage() {
                  {"texture", "model.ply"},
                  {"texture", "textures/*.png"},
                  {"align", "cameras.json"}};
-  stage.writes = {"model.glb", "model.obj", "model.mtl", "model.ply", "model_*.png", "cameras.json"};
+  stage.writes = {"model.glb",    "model.obj",    "model.mtl",        "model.ply",
+                  "model_*.png",  "cameras.json", "model_colors.ply", "model.stl",
+                  "colmap/*.txt", "model.mlp",    "metashape.xml"};
   stage.applies = [](const pipeline::Input&) { return true; };
   stage.published = true;
   stage.instantiate = pipeline::stage_body(run);

@@ -149,12 +149,17 @@ class PagePainter {
     for (int c = 0; c < 3; ++c) coverage_.at(x, y, c) = shown[static_cast<std::size_t>(c)];
   }
 
-  // Blues, greens and violets, far from the orange of grown colours.
+  // Far from the orange of grown colours, and neighbours in number far from each other.
   static std::array<std::uint8_t, 3> color_of_view(int view) {
-    const auto step = [&](int multiplier, int least, int range) {
-      return static_cast<std::uint8_t>(least + (view * multiplier + 31) % range);
-    };
-    return {step(67, 30, 120), step(101, 60, 190), step(149, 110, 140)};
+    constexpr std::array<std::array<std::uint8_t, 3>, 8> colors = {{{70, 110, 220},
+                                                                    {60, 180, 90},
+                                                                    {160, 90, 200},
+                                                                    {70, 190, 200},
+                                                                    {220, 90, 150},
+                                                                    {150, 200, 70},
+                                                                    {120, 120, 130},
+                                                                    {180, 180, 240}}};
+    return colors[static_cast<std::size_t>(view) % colors.size()];
   }
 
   const AtlasPaint& paint_;

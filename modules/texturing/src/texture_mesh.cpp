@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "drape/base/error.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/rendering/renderer.hpp"
+#include "linear_light.hpp"
 #include "photo_materials.hpp"
 #include "photo_sight.hpp"
 #include "unseen_surface.hpp"
@@ -140,7 +142,7 @@ void tally(const TextureView& view, const Image8& covered, const Image8& trusted
 struct Painting {
   Sights sights;
   PaintedFaces surface;
-  std::vector<PhotoColors> colors;  // of the sights; only where more than the photos themselves is needed
+  std::vector<PhotoColors> colors;  // of the sights
   std::vector<Eigen::Vector3f> exposures;
   std::vector<int> chosen;
   bool atlas = false;
@@ -157,15 +159,14 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
   p.surface = split_at_sight(simplified, sights, options.split_px, progress.part(0.4, 0.9));
   p.atlas =
       options.mode == TextureMode::atlas || (options.mode == TextureMode::automatic && sights.size() > 1);
-  if (p.atlas || sights.size() > 1 || options.unseen == Unseen::inpaint)
-    for (std::size_t i = 0; i < sights.size(); ++i)
-      p.colors.emplace_back(views[p.sights.views[i]].rgb, sights[i].trusted());
+  for (std::size_t i = 0; i < sights.size(); ++i)
+    p.colors.emplace_back(views[p.sights.views[i]].rgb, sights[i].trusted());
   p.exposures.assign(sights.size(), Eigen::Vector3f::Zero());
   if (sights.size() > 1) {
     look_up_colors(p.surface, sights, p.colors);
     const std::vector<Eigen::Vector3f> matched = matched_exposures(p.surface, sights.size());
     apply_exposures(p.surface, matched);
-    if (options.level_seams) p.exposures = matched;
+    if (options.level_seams && p.atlas) p.exposures = matched;
     drop_outliers(p.surface);
   }
   progress.update(0.95, "choosing photos");
@@ -276,16 +277,64 @@ void add_coverage(const Painting& p, const FaceLists& faces_of, std::span<const 
   result.background_texels_percent = 100 * pixels.background / pixels.covered;
 }
 
-void add_unseen(const Painting& p, Unseen unseen, std::set<std::string>& names, TextureResult& result) {
-  TexturedMesh& model = result.model;
-  Material material =
-      unseen_material(model.mesh, unseen, unseen == Unseen::inpaint ? seen_colors(p) : SeenColors());
-  if (std::find(p.chosen.begin(), p.chosen.end(), no_view) == p.chosen.end()) return;
-  material.name = material_name("unseen", names);
-  result.unseen_in_scan_colour = unseen == Unseen::scan_colour && !model.mesh.colors.empty();
+// Pixels per unit length where photos paint the surface, typically.
+double typical_resolution(const Painting& p) {
+  std::vector<double> resolutions;
   for (std::size_t f = 0; f < p.chosen.size(); ++f)
-    if (p.chosen[f] == no_view) model.face_materials[f] = static_cast<std::uint32_t>(model.materials.size());
+    if (p.chosen[f] != no_view)
+      resolutions.push_back(std::sqrt(candidate_of(p.surface, f, p.chosen[f]).quality));
+  if (resolutions.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = resolutions.begin() + static_cast<std::ptrdiff_t>(resolutions.size() / 2);
+  std::nth_element(resolutions.begin(), middle, resolutions.end());
+  return std::max(*middle, std::numeric_limits<double>::min());
+}
+
+void add_flat_material(const std::string& name, const std::vector<std::uint8_t>& faces,
+                       const Eigen::Vector3f& color, std::set<std::string>& names, TexturedMesh& model) {
+  if (std::find(faces.begin(), faces.end(), 1) == faces.end()) return;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f] != 0) model.face_materials[f] = static_cast<std::uint32_t>(model.materials.size());
+  Material material;
+  material.name = material_name(name, names);
+  material.flat_color = color;
   model.materials.push_back(std::move(material));
+}
+
+// Narrow ribbons beside painted surface go on in its colours; what the scanner saw itself needs no growing.
+void add_unseen(const Painting& p, const TextureOptions& options, std::set<std::string>& names,
+                TextureResult& result) {
+  TexturedMesh& model = result.model;
+  std::vector<std::uint8_t> painted;
+  for (const int view : p.chosen) painted.push_back(view != no_view);
+  const SeenColors seen = seen_colors(p);
+  std::vector<Eigen::Vector3f> colors = unseen_colors(model.mesh, options.unseen, seen);
+  result.unseen_in_scan_colour = options.unseen == Unseen::scan_colour && !colors.empty();
+  std::vector<std::uint8_t> ribbons(painted.size(), 0);
+  if (!result.unseen_in_scan_colour && options.fill_px > 0)
+    ribbons = faces_within_reach(model.mesh, painted, options.fill_px / typical_resolution(p));
+  const bool any = std::find(ribbons.begin(), ribbons.end(), 1) != ribbons.end();
+  if (any && options.unseen != Unseen::inpaint) {
+    if (colors.empty()) colors.assign(model.mesh.vertices.size(), neutral_color);
+    const std::vector<Eigen::Vector3f> grown =
+        harmonic_colors(model.mesh, seen, linear_from_stored(neutral_color));
+    for (std::size_t f = 0; f < ribbons.size(); ++f)
+      if (ribbons[f] != 0)
+        for (const std::uint32_t v : model.mesh.faces[f]) colors[v] = stored_from_linear(grown[v]);
+  }
+  std::vector<std::uint8_t> rest;
+  const double area = surface_area(model.mesh);
+  for (std::size_t f = 0; f < ribbons.size(); ++f) {
+    rest.push_back(painted[f] == 0 && ribbons[f] == 0);
+    if (ribbons[f] == 0) continue;
+    const double percent = 50 * scaled_face_normal(model.mesh, f).norm() / area;
+    result.unseen_percent -= percent;
+    result.filled_percent += percent;
+  }
+  result.unseen_percent = std::max(0.0, result.unseen_percent);
+  const Eigen::Vector3f flat = colors.empty() ? neutral_color : Eigen::Vector3f::Ones();
+  model.mesh.colors = std::move(colors);
+  add_flat_material("grown", ribbons, flat, names, model);
+  add_flat_material("unseen", rest, flat, names, model);
 }
 
 }  // namespace
@@ -319,7 +368,7 @@ TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& f
       result.views[i].reason = "not usable";
     else if (result.views[i].painted_percent == 0)
       result.views[i].reason = "sees nothing of the model that others do not see better";
-  add_unseen(p, options.unseen, names, result);
+  add_unseen(p, options, names, result);
   progress.update(1);
   return result;
 }

@@ -2,16 +2,12 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "linear_light.hpp"
 
 namespace drape::texturing {
-namespace {
-
-const Eigen::Vector3f neutral_color(0.62F, 0.62F, 0.6F);
-
-}  // namespace
-
 std::vector<Eigen::Vector3f> harmonic_colors(const TriangleMesh& mesh, const SeenColors& known,
                                              const Eigen::Vector3f& elsewhere) {
   // So weak that it matters only where nothing else does.
@@ -50,25 +46,55 @@ std::vector<Eigen::Vector3f> harmonic_colors(const TriangleMesh& mesh, const See
   return colors;
 }
 
-Material unseen_material(TriangleMesh& mesh, Unseen unseen, const SeenColors& seen) {
-  Material material;
-  if (unseen == Unseen::neutral) mesh.colors.clear();
-  if (unseen == Unseen::intensity) {
-    mesh.colors.clear();
-    for (const float i : mesh.intensities)
-      mesh.colors.emplace_back(Eigen::Vector3f::Constant(std::clamp(i, 0.F, 1.F)));
-  }
-  if (unseen == Unseen::inpaint) {
-    const bool any = std::any_of(seen.begin(), seen.end(), [](const auto& c) { return c.has_value(); });
-    if (!any) {
-      mesh.colors.clear();
-    } else {
-      mesh.colors = harmonic_colors(mesh, seen, linear_from_stored(neutral_color));
-      for (Eigen::Vector3f& c : mesh.colors) c = stored_from_linear(c);
+std::vector<std::uint8_t> faces_within_reach(const TriangleMesh& mesh,
+                                             const std::vector<std::uint8_t>& painted, double reach) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  std::vector<double> distance(mesh.vertices.size(), far);
+  for (std::size_t f = 0; f < painted.size(); ++f)
+    if (painted[f] != 0)
+      for (const std::uint32_t v : mesh.faces[f]) distance[v] = 0;
+  // Bellman and Ford: within a few edges of the start nothing changes any more.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t f = 0; f < painted.size(); ++f) {
+      if (painted[f] != 0) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::uint32_t near = mesh.faces[f][k];
+        std::uint32_t beyond = mesh.faces[f][(k + 1) % 3];
+        if (distance[near] > distance[beyond]) std::swap(near, beyond);
+        const double along = distance[near] + (mesh.vertices[near] - mesh.vertices[beyond]).norm();
+        if (along > reach || distance[beyond] <= along) continue;
+        distance[beyond] = along;
+        changed = true;
+      }
     }
   }
-  if (mesh.colors.empty()) material.flat_color = neutral_color;
-  return material;
+  std::vector<std::uint8_t> within(painted.size(), 0);
+  for (std::size_t f = 0; f < painted.size(); ++f)
+    within[f] = painted[f] == 0 && std::all_of(mesh.faces[f].begin(), mesh.faces[f].end(),
+                                               [&](std::uint32_t v) { return distance[v] <= reach; });
+  return within;
+}
+
+std::vector<Eigen::Vector3f> unseen_colors(const TriangleMesh& mesh, Unseen unseen, const SeenColors& seen) {
+  std::vector<Eigen::Vector3f> colors;
+  switch (unseen) {
+    case Unseen::neutral:
+      break;
+    case Unseen::scan_colour:
+      colors = mesh.colors;
+      break;
+    case Unseen::intensity:
+      for (const float i : mesh.intensities)
+        colors.emplace_back(Eigen::Vector3f::Constant(std::clamp(i, 0.F, 1.F)));
+      break;
+    case Unseen::inpaint:
+      if (std::none_of(seen.begin(), seen.end(), [](const auto& c) { return c.has_value(); })) break;
+      colors = harmonic_colors(mesh, seen, linear_from_stored(neutral_color));
+      for (Eigen::Vector3f& c : colors) c = stored_from_linear(c);
+      break;
+  }
+  return colors;
 }
 
 }  // namespace drape::texturing

@@ -19,8 +19,17 @@ using SeenColors = std::vector<std::optional<Eigen::Vector3f>>;
 [[nodiscard]] std::vector<Eigen::Vector3f> harmonic_colors(const TriangleMesh& mesh, const SeenColors& known,
                                                            const Eigen::Vector3f& elsewhere);
 
-/// The material of unseen faces; sets or clears the mesh's vertex colours as it asks. `seen` is needed for
-/// inpainting only.
-[[nodiscard]] Material unseen_material(TriangleMesh& mesh, Unseen unseen, const SeenColors& seen);
+/// Per face 1 where it is not painted but lies all within `reach` of painted surface, along its edges: the
+/// ribbons that guards leave behind outlines and at their rim.
+[[nodiscard]] std::vector<std::uint8_t> faces_within_reach(const TriangleMesh& mesh,
+                                                           const std::vector<std::uint8_t>& painted,
+                                                           double reach);
+
+/// What vertices of surface without a photo show: nothing if it is all one flat colour.
+[[nodiscard]] std::vector<Eigen::Vector3f> unseen_colors(const TriangleMesh& mesh, Unseen unseen,
+                                                         const SeenColors& seen);
+
+/// Of surface that nobody saw, as stored.
+inline const Eigen::Vector3f neutral_color(0.62F, 0.62F, 0.6F);
 
 }  // namespace drape::texturing

@@ -305,5 +305,28 @@ TEST(TexturedPly, PicturesStayInTheFolderAndLiesAreNamed) {
   EXPECT_NE(problem("one.png", "3 0 1 2 6 0 0 1 0 0 1 -1").find("x.ply:16: "), std::string::npos);
 }
 
+TEST(VertexColors, AreWhatTheTexturesShow) {
+  TexturedMesh m = model();
+  m.materials[0].image = Image8(4, 4, 3, 77);
+  m.materials[1].image = Image8(4, 4, 3, 77);
+  m.materials[2].flat_color = Eigen::Vector3f::Ones();
+  for (Eigen::Vector3f& c : m.mesh.colors) c = Eigen::Vector3f::Constant(77 / 255.F);
+  const TriangleMesh colored = io::with_vertex_colors(m);
+  ASSERT_EQ(colored.colors.size(), m.mesh.vertices.size());
+  for (const Eigen::Vector3f& c : colored.colors)
+    EXPECT_LT((c - Eigen::Vector3f::Constant(77 / 255.F)).norm(), 1e-4F);
+  m.materials[0].image = Image8(4, 4, 3, 255);  // where x > 0
+  const TriangleMesh other = io::with_vertex_colors(m);
+  for (std::size_t v = 0; v < other.colors.size(); ++v) {
+    const double x = m.mesh.vertices[v].x();
+    if (x > 0.3) {
+      EXPECT_GT(other.colors[v].x(), 0.99F);
+    }
+    if (x < -0.3) {
+      EXPECT_LT(other.colors[v].x(), 0.4F);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace drape

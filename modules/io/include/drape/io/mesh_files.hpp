@@ -20,4 +20,8 @@ namespace drape::io {
 /// Binary little-endian PLY with doubles and every attribute that the mesh has. Reads back to the same bits.
 void write_mesh_ply(const std::filesystem::path& file, const TriangleMesh& mesh);
 
+/// Binary STL: float32 corners and face normals, nothing else. Error{io}; Error{input} for a mesh that breaks
+/// its promises.
+void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh);
+
 }  // namespace drape::io

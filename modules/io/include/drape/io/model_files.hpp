@@ -43,4 +43,7 @@ void write_textured_ply(const std::filesystem::path& file, const TexturedMesh& m
 [[nodiscard]] TexturedMesh read_textured_ply(const std::filesystem::path& file,
                                              const std::filesystem::path& picture_folder);
 
+/// The mesh with a colour per vertex: the mean, in linear light, of what the faces round it show there.
+[[nodiscard]] TriangleMesh with_vertex_colors(const TexturedMesh& model);
+
 }  // namespace drape::io

@@ -30,7 +30,7 @@ struct TextureOptions {
   TextureMode mode = TextureMode::automatic;
   int atlas_size_px = 4096;
   bool level_seams = true;
-  double max_incidence_deg = 80;
+  double max_incidence_deg = 85;
   double stencil_erode_px = 1.5;
   double fill_px = 6;
   double warp_max_px = 4;
@@ -54,9 +54,10 @@ inline void describe(Binder& b, TextureOptions& o) {
       "stencil_erode_px", o.stencil_erode_px, {0, 1000},
       "photo pixels this close to the stencil's background are not trusted: object colours are grown over "
       "them");
-  b.number("fill_px", o.fill_px, {0, 1000},
-           "surface that projects up to this far outside the trusted pixels is painted with grown colours; "
-           "farther out it counts as unseen");
+  b.number(
+      "fill_px", o.fill_px, {0, 1000},
+      "surface up to this far outside the trusted pixels, or beside painted surface, gets colours grown from "
+      "there; farther off it counts as unseen");
   b.number(
       "warp_max_px", o.warp_max_px, {0, 100},
       "the model's outline is laid on the photo's by a smooth shift of at most this much; 0: not at all");
@@ -94,7 +95,8 @@ struct ViewUse {
 
 struct TextureResult {
   /// Materials: one per photo that paints something, in their order, or one per page of the atlas; then
-  /// "unseen" if there is such surface.
+  /// "grown" for ribbons of up to fill_px beside painted surface that go on in its colours (vertex colours),
+  /// and "unseen" for the rest, if there is such surface.
   TexturedMesh model;
   std::vector<ViewUse> views;  // as the views given
   /// Per view, as large as its photo: pixels that are on the model as they were, pixels there that grown
@@ -106,7 +108,7 @@ struct TextureResult {
   double atlas_used_percent = 0;  // of the pages, by charts
   // Percent of the model's area; they add up to 100.
   double seen_percent = 0;    // painted with pixels of a photo
-  double filled_percent = 0;  // painted with colours grown past the trusted part of a photo
+  double filled_percent = 0;  // in colours grown past the trusted part of a photo
   double unseen_percent = 0;
   /// Of the photos' pixels under the painted surface: those that the stencils call background (the mesh
   /// reaches over the outline there), and those of them that still show in the materials.
