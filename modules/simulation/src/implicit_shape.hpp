@@ -37,6 +37,11 @@ struct Part {
 
 [[nodiscard]] ImplicitShape teapot_shape();
 [[nodiscard]] ImplicitShape statue_shape();
+[[nodiscard]] ImplicitShape head_shape();
+[[nodiscard]] ImplicitShape machine_part_shape();
+[[nodiscard]] ImplicitShape aircraft_shape();
+[[nodiscard]] ImplicitShape vase_shape();
+[[nodiscard]] ImplicitShape chair_shape();
 [[nodiscard]] ImplicitShape mug_shape();
 [[nodiscard]] ImplicitShape apple_shape();
 [[nodiscard]] ImplicitShape books_shape();

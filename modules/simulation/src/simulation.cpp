@@ -133,7 +133,7 @@ io::PosesRecord write_scans(const SimulationSpec& spec, const TriangleMesh& mesh
     record.reason = "simulated";
     truth.scans.push_back(record);
   }
-  const std::string conf = spec.object == ObjectKind::teapot ? "teapot.conf" : "statue.conf";
+  const std::string conf = object_name(spec.object) + ".conf";
   write_stanford_conf(folder / "scans" / conf, measured, metres_per_unit(spec));
   return truth;
 }

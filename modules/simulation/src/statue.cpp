@@ -3,9 +3,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
-#include "distance_functions.hpp"
-#include "implicit_shape.hpp"
-#include "paint.hpp"
+#include "solids.hpp"
 
 namespace drape::simulation {
 namespace {
@@ -25,10 +23,6 @@ const Color denim(0.20F, 0.28F, 0.45F);
 const Color leather(0.22F, 0.12F, 0.07F);
 const Color hemp(0.80F, 0.68F, 0.44F);
 const Color brass(0.86F, 0.68F, 0.25F);
-
-Color grained(const Color& color, const Vector3d& p, double pitch, double strength) {
-  return mix(color, Color::Zero(), strength * (cloud_noise(p / pitch, 41) - 0.2));
-}
 
 Color granite(const Vector3d& p) {
   if (in_speckle(p, 2.6, 0.45, 51)) return {0.30F, 0.29F, 0.28F};
@@ -58,24 +52,10 @@ Color sleeve_paint(const Vector3d& p) {
   return mix(grained(bronze, p, 12, 0.5), verdigris, ease((cloud_noise(streaks, 81) - 0.44) / 0.26));
 }
 
-Paint plain(const Color& color, double pitch = 6, double strength = 0.35) {
-  return [=](const Vector3d& p) { return grained(color, p, pitch, strength); };
-}
-
 Color scarf_paint(const Vector3d& p) {
   const Vector3d q = p / 6.5;
   const Vector3d center(std::round(q.x()), std::round(q.y()), std::round(q.z()));
   return (q - center).norm() < 0.3 ? Color(0.95F, 0.88F, 0.75F) : scarlet;
-}
-
-Distance limb(const Vector3d& a, const Vector3d& b, double radius_a, double radius_b) {
-  return [=](const Vector3d& p) { return limb_distance(p, a, b, radius_a, radius_b); };
-}
-Distance ellipsoid(const Vector3d& center, const Vector3d& radii) {
-  return [=](const Vector3d& p) { return ellipsoid_distance(p, center, radii); };
-}
-Distance box(const Vector3d& center, const Vector3d& half, double rounding) {
-  return [=](const Vector3d& p) { return box_distance(p, center, half, rounding); };
 }
 
 void add_base(std::vector<Part>& parts) {

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <numbers>
+
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/mesh_topology.hpp"
+#include "drape/metrics/surface_distance.hpp"
 #include "drape/simulation/ray_caster.hpp"
 
 namespace drape::simulation {
@@ -15,13 +19,28 @@ constexpr double coarse = 2.5;
 
 /// The clutter has no finer mesh than it needs.
 double coarse_enough(ObjectKind kind) {
-  return kind == ObjectKind::teapot || kind == ObjectKind::statue ? coarse : 1;
+  switch (kind) {
+    case ObjectKind::teapot:
+    case ObjectKind::statue:
+      return coarse;
+    case ObjectKind::head:
+    case ObjectKind::chair:
+    case ObjectKind::vase:
+    case ObjectKind::machine_part:
+      return 1.8;
+    case ObjectKind::aircraft:
+      return 1.2;  // its wings ask for it
+    default:
+      return 1;
+  }
 }
 
 class EveryObject : public testing::TestWithParam<ObjectKind> {};
 INSTANTIATE_TEST_SUITE_P(Objects, EveryObject,
-                         testing::Values(ObjectKind::teapot, ObjectKind::statue, ObjectKind::mug,
-                                         ObjectKind::apple, ObjectKind::books));
+                         testing::Values(ObjectKind::teapot, ObjectKind::statue, ObjectKind::head,
+                                         ObjectKind::machine_part, ObjectKind::aircraft, ObjectKind::vase,
+                                         ObjectKind::chair, ObjectKind::mug, ObjectKind::apple,
+                                         ObjectKind::books));
 
 TEST_P(EveryObject, IsOneClosedOutwardSurfaceOnTheTable) {
   const TriangleMesh mesh = make_object({GetParam(), 1, coarse_enough(GetParam())});
@@ -68,8 +87,9 @@ TEST(Objects, ScaleMultipliesLengthsAndKeepsThePaint) {
 }
 
 TEST(Objects, ColoursAreColours) {
-  for (const ObjectKind kind : {ObjectKind::teapot, ObjectKind::statue}) {
-    const ObjectSpec spec{kind, 1, coarse};
+  for (const ObjectKind kind : {ObjectKind::teapot, ObjectKind::statue, ObjectKind::head,
+                                ObjectKind::machine_part, ObjectKind::aircraft, ObjectKind::vase}) {
+    const ObjectSpec spec{kind, 1, coarse_enough(kind)};
     const TriangleMesh mesh = make_object(spec);
     Eigen::Vector3f least = mesh.colors[0];
     Eigen::Vector3f most = mesh.colors[0];
@@ -100,6 +120,52 @@ TEST(Statue, IsHollowFromBehind) {
     const double wall = (1 - back->distance) - (front->distance - 1);
     EXPECT_GT(wall, 0.003) << height;
     EXPECT_LT(wall, 0.012) << height;
+  }
+}
+
+/// Distance of the moved vertices from the surface itself, but for the 5 % where the lattice that the object
+/// was meshed on cuts edges differently.
+double change(const TriangleMesh& mesh, const Eigen::Matrix3d& motion) {
+  std::vector<Vector3d> moved;
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 11) moved.emplace_back(motion * mesh.vertices[i]);
+  return metrics::surface_distance(moved, mesh).percentile_95;
+}
+
+Eigen::Matrix3d turn_about_z(double radians) {
+  return Eigen::AngleAxisd(radians, Vector3d::UnitZ()).toRotationMatrix();
+}
+
+TEST(Symmetry, WhatAnObjectSaysOfItselfHolds) {
+  for (const ObjectKind kind : {ObjectKind::teapot, ObjectKind::head, ObjectKind::machine_part,
+                                ObjectKind::vase, ObjectKind::chair}) {
+    const TriangleMesh mesh = make_object({kind, 1, coarse_enough(kind)});
+    const ObjectSymmetry symmetry = object_symmetry(kind);
+    const Vector3d normal = symmetry.mirror.value_or(Vector3d::UnitX());
+    const Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
+    constexpr double tolerance_m = 0.001;  // under half a lattice pitch
+    EXPECT_EQ(change(mesh, mirror) < tolerance_m, symmetry.mirror || symmetry.about_z) << object_name(kind);
+    EXPECT_EQ(change(mesh, turn_about_z(0.7)) < tolerance_m, symmetry.about_z) << object_name(kind);
+  }
+}
+
+TEST(MachinePart, LightPassesThroughItsHoles) {
+  const RayCaster caster(make_object({ObjectKind::machine_part, 1, 1.8}));
+  EXPECT_FALSE(caster.blocked({-0.016, -1, 0.062}, Vector3d::UnitY()));    // the bore
+  EXPECT_FALSE(caster.blocked({-0.066, -0.034, 1}, -Vector3d::UnitZ()));   // a bolt
+  EXPECT_FALSE(caster.blocked({0.02, 0.036, 1}, -Vector3d::UnitZ()));      // the slot
+  EXPECT_FALSE(caster.blocked({-1, 0.027, 0.046}, Vector3d(1, 0.06, 0)));  // the eye
+  EXPECT_TRUE(caster.blocked({-0.066, 0.034, 1}, -Vector3d::UnitZ()));     // where the fourth bolt is not
+}
+
+TEST(Aircraft, ItsWingsAreThin) {
+  const RayCaster caster(make_object({ObjectKind::aircraft, 1, 1.2}));
+  for (const double x : {-0.09, 0.09}) {
+    const auto above = caster.first_hit({x, -0.014, 1}, -Vector3d::UnitZ());
+    const auto below = caster.first_hit({x, -0.014, -1}, Vector3d::UnitZ());
+    ASSERT_TRUE(above && below);
+    const double thickness = (1 - above->distance) - (below->distance - 1);
+    EXPECT_GT(thickness, 0.003);
+    EXPECT_LT(thickness, 0.006);
   }
 }
 

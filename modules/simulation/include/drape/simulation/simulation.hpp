@@ -51,7 +51,14 @@ struct SimulationSpec {
 };
 
 inline void describe(Binder& b, SimulationSpec& o) {
-  b.choice("object", o.object, {{"teapot", ObjectKind::teapot}, {"statue", ObjectKind::statue}},
+  b.choice("object", o.object,
+           {{"teapot", ObjectKind::teapot},
+            {"statue", ObjectKind::statue},
+            {"head", ObjectKind::head},
+            {"machine_part", ObjectKind::machine_part},
+            {"aircraft", ObjectKind::aircraft},
+            {"vase", ObjectKind::vase},
+            {"chair", ObjectKind::chair}},
            "what is scanned and photographed");
   b.number("scale", o.scale, {0.001, 1000},
            "the object's size: at 1 the teapot is 0.22 m long, the statue 0.33 m high");
