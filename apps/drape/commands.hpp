@@ -21,6 +21,8 @@ struct RunArguments {
   std::optional<std::string> only;
   std::optional<std::filesystem::path> workspace;
   std::string name;
+  std::string fixes;     // a file; "none": forget those of before; empty: those of before
+  bool dry_run = false;  // say what would run and how long it may take
   ProgressMode progress = ProgressMode::automatic;
   bool quiet = false;
   std::string command;  // the command line as it was typed
@@ -35,6 +37,33 @@ struct ExplainArguments {
   std::string name;
 };
 void explain_command(const ExplainArguments& arguments);
+
+struct GcArguments {
+  std::filesystem::path where = ".";  // a workspace, a folder with one, or a configuration
+  bool remove = false;
+  std::string max_size;      // empty: everything without a run
+  double min_age_hours = 1;  // younger results stay
+};
+void gc_command(const GcArguments& arguments);
+
+/// Runs are named as select_run says.
+struct DiffArguments {
+  std::string a;
+  std::string b;
+  std::optional<std::filesystem::path> workspace;
+  std::filesystem::path output = "diff.html";
+};
+void diff_command(const DiffArguments& arguments);
+
+struct AdoptArguments {
+  std::string run;
+  std::string stage;
+  std::filesystem::path file;
+  std::string as;       // the stage's file that it stands for; empty: told by name or kind
+  bool forget = false;  // the stage makes its own again
+  std::optional<std::filesystem::path> workspace;
+};
+void adopt_command(const AdoptArguments& arguments);
 
 struct ValidateArguments {
   std::filesystem::path config;
@@ -65,6 +94,12 @@ struct ConvertArguments {
   std::filesystem::path output;
 };
 void convert_command(const ConvertArguments& arguments);
+/// new_command, then run_command: everything goes into one folder.
+struct MakeArguments {
+  NewArguments create;  // output: the folder
+  RunArguments run;
+};
+void make_command(const MakeArguments& arguments, const std::atomic<bool>& stop);
 
 /// Writes the reference page; with `check` only compares, and says whether it is as the code makes it.
 [[nodiscard]] bool reference_command(const std::filesystem::path& file, bool check);

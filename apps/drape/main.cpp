@@ -1,5 +1,7 @@
 // drape: the command line. Parses, calls one command, and is the only place that catches, prints and exits.
 #include <fmt/core.h>
+#include <sys/time.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <atomic>
@@ -7,6 +9,7 @@
 #include <iostream>
 #include <map>
 
+#include "batch_command_line.hpp"
 #include "commands.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/log.hpp"
@@ -20,11 +23,25 @@ using namespace drape::app;
 std::atomic<bool> stop_requested{false};
 std::atomic<int> stop_signal{0};
 
+// Work that does not look at the flag in time is ended all the same: results are written aside, so nothing
+// that counts is lost.
+void on_alarm(int) {
+  static constexpr char text[] = "\ndrape: interrupted; what was finished is kept\n";
+  static_cast<void>(!::write(STDERR_FILENO, text, sizeof text - 1));
+  ::_exit(128 + (stop_signal == 0 ? SIGINT : stop_signal.load()));
+}
+
 void on_signal(int signal) {
   stop_requested = true;
   stop_signal = signal;
   // A second one ends the program at once.
   std::signal(signal, SIG_DFL);
+  std::signal(SIGALRM, on_alarm);
+  constexpr suseconds_t patience_us = 500'000;
+  const struct itimerval patience {
+    {0, 0}, { 1, patience_us }
+  };
+  ::setitimer(ITIMER_REAL, &patience, nullptr);
 }
 
 std::string version_text() {
@@ -68,12 +85,17 @@ struct CommandLine {
   ValidateArguments validate;
   std::filesystem::path status = ".";
   NewArguments create;
-  InfoArguments info;
-  ConvertArguments convert;
   std::filesystem::path reference = "config/REFERENCE.md";
   bool reference_check = false;
   SimulateArguments simulate;
   SegmentArguments segment;
+  GcArguments gc;
+  DiffArguments diff;
+  AdoptArguments adopt;
+  MakeArguments make;
+  InfoArguments info;
+  ConvertArguments convert;
+  BatchArguments batch;
 
   CommandLine() {
     app.set_version_flag("--version", version_text(), "The versions of drape and its libraries");
@@ -89,6 +111,11 @@ struct CommandLine {
     add_new();
     add_info();
     add_convert();
+    add_make();
+    add_batch_commands(app, batch, action, stop_requested);
+    add_gc();
+    add_diff();
+    add_adopt();
     add_reference();
     add_simulate();
     add_segment();
@@ -126,6 +153,9 @@ struct CommandLine {
     add_sets(sub, run.sets);
     sub->add_option("--workspace", run.workspace, "Folder for the stages' results")->type_name("DIR");
     sub->add_option("--name", run.name, "Name of the run; default: the configuration's")->type_name("NAME");
+    sub->add_option("--fixes", run.fixes, "Corrections to keep for this run; none: forget those that it has")
+        ->type_name("FILE");
+    sub->add_flag("--dry-run", run.dry_run, "Say what would run, and how long it may take, and run nothing");
     add_progress(sub);
     sub->callback([this] {
       action = [this] {
@@ -194,6 +224,93 @@ struct CommandLine {
     sub->callback([this] {
       action = [this] {
         new_command(create);
+        return 0;
+      };
+    });
+  }
+
+  void add_make() {
+    CLI::App* sub =
+        command("make", "From scans (or one mesh) and photos to a model in one go, with the defaults",
+                "drape make scans/*.ply --photo front.jpg -o statue");
+    sub->add_option("scans", make.create.scans, "Scan files, or one mesh; a Stanford .conf gives their poses")
+        ->required()
+        ->type_name("SCANS");
+    sub->add_option("--photo", make.create.photos, "A photo; may be given again")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    sub->add_option("-o,--output", make.create.output,
+                    "Folder for everything: drape.yaml, model, drape-workspace")
+        ->required()
+        ->type_name("DIR");
+    add_sets(sub, make.run.sets);
+    add_progress(sub);
+    sub->callback([this] {
+      action = [this] {
+        make.run.progress = progress;
+        make.run.quiet = quiet;
+        make.run.command = run.command;
+        make_command(make, stop_requested);
+        return 0;
+      };
+    });
+  }
+
+  void add_gc() {
+    CLI::App* sub =
+        command("gc", "List results that no run uses, or remove them", "drape gc --max-size 20GB --delete");
+    sub->add_option("where", gc.where, "A workspace, a folder with one, or a configuration; default: here");
+    sub->add_flag("--delete", gc.remove, "Remove them; without it they are only listed");
+    sub->add_option("--max-size", gc.max_size,
+                    "Remove only the oldest, until all results are under this size")
+        ->type_name("SIZE");
+    sub->add_option("--min-age-hours", gc.min_age_hours, "Younger results stay; default: 1")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("H");
+    sub->callback([this] {
+      action = [this] {
+        gc_command(gc);
+        return 0;
+      };
+    });
+  }
+
+  void add_diff() {
+    CLI::App* sub = command("diff", "Compare two runs: options, numbers, and pictures side by side on a page",
+                            "drape diff teapot front --workspace config -o diff.html");
+    sub->add_option("a", diff.a, "A run: its name, its folder, or its configuration")
+        ->required()
+        ->type_name("RUN_A");
+    sub->add_option("b", diff.b, "Another run")->required()->type_name("RUN_B");
+    sub->add_option("--workspace", diff.workspace, "Where runs that are given by name lie; default: here")
+        ->type_name("DIR");
+    sub->add_option("-o,--output", diff.output, "The page to write; default: diff.html")->type_name("FILE");
+    sub->callback([this] {
+      action = [this] {
+        diff_command(diff);
+        return 0;
+      };
+    });
+  }
+
+  void add_adopt() {
+    CLI::App* sub = command("adopt", "Let a file made by hand stand for one that a stage makes",
+                            "drape adopt config/teapot.yaml mesh mended.ply");
+    sub->add_option("run", adopt.run, "A run: its name, its folder, or its configuration")
+        ->required()
+        ->type_name("RUN");
+    sub->add_option("stage", adopt.stage, "The stage")->required()->type_name("STAGE");
+    CLI::Option* file = sub->add_option("file", adopt.file, "The file")->type_name("FILE");
+    sub->add_option("--as", adopt.as,
+                    "The stage's file that it stands for; default: that of the same name or kind")
+        ->type_name("NAME");
+    sub->add_flag("--forget", adopt.forget, "The stage makes its own files again")->excludes(file);
+    sub->add_option("--workspace", adopt.workspace, "Where a run that is given by name lies; default: here")
+        ->type_name("DIR");
+    sub->callback([this] {
+      action = [this] {
+        if (adopt.file.empty() && !adopt.forget) throw config_error("adopt needs a FILE, or --forget");
+        adopt_command(adopt);
         return 0;
       };
     });
@@ -309,6 +426,7 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, on_signal);
   CommandLine line;
   line.run.command = command_line(argc, argv);
+  line.batch.command = line.run.command;
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -320,6 +438,8 @@ int main(int argc, char** argv) {
     if (line.quiet) log::set_console_level(log::Level::warning);
     if (line.verbose) log::set_console_level(log::Level::debug);
     set_thread_count(line.threads);
+    line.batch.quiet = line.quiet;
+    line.batch.threads = line.threads;
     return line.action();
   } catch (const Interrupted&) {
     fmt::print(stderr,

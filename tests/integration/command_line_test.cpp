@@ -21,7 +21,8 @@ TEST(CommandLine, VersionNamesTheLibraries) {
 }
 
 TEST(CommandLine, EveryHelpShowsAnExample) {
-  for (const char* command : {"run", "status", "explain", "validate", "new", "reference", "simulate"}) {
+  for (const char* command : {"run", "status", "explain", "validate", "new", "make", "batch", "sweep", "gc",
+                              "diff", "adopt", "reference", "simulate"}) {
     const Outcome outcome = run_drape({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_TRUE(contains(outcome.out, std::string("Example:\n  drape ") + command)) << outcome.out;

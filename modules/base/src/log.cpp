@@ -81,8 +81,14 @@ void write(Level level, std::string_view message) {
     all.console->log(entry);
     all.console->flush();
   }
-  for (const auto& sink : all.extra)
-    if (sink->should_log(entry.level)) sink->log(entry);
+  for (const auto& sink : all.extra) {
+    // A log that cannot be written (a full disk) must not end the work; that is told where results are
+    // written.
+    try {
+      if (sink->should_log(entry.level)) sink->log(entry);
+    } catch (const spdlog::spdlog_ex&) {
+    }
+  }
 }
 
 void set_console_level(Level level) {
@@ -107,7 +113,10 @@ FileSink::FileSink(const std::filesystem::path& file) : impl_(nullptr) {
 
 FileSink::~FileSink() {
   sinks().remove(impl_->sink);
-  impl_->sink->flush();
+  try {
+    impl_->sink->flush();
+  } catch (const spdlog::spdlog_ex&) {
+  }
   delete impl_;
 }
 

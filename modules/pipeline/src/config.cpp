@@ -79,6 +79,7 @@ const std::vector<InputKey>& top_level_keys() {
       {"input", "which files there are, and what is known of them"},
       {"output", "folder for the finished model; default: <name of the configuration>-model beside it"},
       {"workspace", "folder for the stages' results; default: drape-workspace beside the configuration"},
+      {"sweep", "an experiment for `drape sweep`: objects, seeds or repeats, grid, list; see the tutorial"},
       {"seed", "of everything random; the same seed gives the same bytes; default: 1"},
   };
   return keys;
@@ -114,30 +115,33 @@ void assign_options(const std::vector<Option>& options, const ConfigNode& sectio
 }
 
 Config load_config(const fs::path& file, std::span<const Stage> table, std::span<const std::string> sets) {
+  std::string text = read_file(file);
+  ConfigNode root = parse_yaml(text, file.string());
+  return configure(
+      {file.stem().string(), fs::absolute(file).lexically_normal(), std::move(text), std::move(root)}, table,
+      sets);
+}
+
+Config configure(ConfigSource source, std::span<const Stage> table, std::span<const std::string> sets) {
   Config config;
-  config.file = fs::absolute(file).lexically_normal();
-  config.name = config.file.stem().string();
-  config.text = read_file(file);
+  config.file = std::move(source.file);
+  config.name = std::move(source.name);
+  config.text = std::move(source.text);
   config.sets.assign(sets.begin(), sets.end());
   const fs::path folder = config.file.parent_path();
 
-  ConfigNode root = parse_yaml(config.text, file.string());
+  ConfigNode root = std::move(source.root);
   if (root.kind != ConfigNode::Kind::map)
     throw config_error("{}: is no configuration: it must be sections of keys and values, such as input:",
-                       file.string());
-  for (const std::string& set : sets) {
-    const std::size_t equals = set.find('=');
-    if (equals == std::string::npos)
-      throw config_error("--set {}: must be key=value, such as fill.base=flat", set);
-    set_value(root, std::string_view(set).substr(0, equals), std::string_view(set).substr(equals + 1));
-  }
+                       config.file.string());
+  for (const std::string& set : sets) set_value(root, set);
 
   InputProblems problems;
   refuse_unknown_sections(root, table, problems.wrong);
   read_settings(root, folder, config, problems.wrong);
   const ConfigNode* input = root.find("input");
   if (input == nullptr)
-    problems.wrong.push_back(fmt::format("{}: has no input: section", file.string()));
+    problems.wrong.push_back(fmt::format("{}: has no input: section", config.file.string()));
   else
     config.input = read_input_section(*input, folder, problems);
 

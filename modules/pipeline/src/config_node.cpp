@@ -5,7 +5,9 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <istream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "drape/base/error.hpp"
@@ -200,6 +202,52 @@ void set_value(ConfigNode& root, std::string_view path, std::string_view value) 
   for (const PathStep& step : split_path(path)) node = &child(*node, step, path, where);
   *node = parse_yaml(value, where.source);
   node->where = where;
+}
+
+void set_value(ConfigNode& root, std::string_view path_and_value) {
+  const std::size_t equals = path_and_value.find('=');
+  if (equals == std::string_view::npos)
+    throw config_error("--set {}: must be key=value, such as fill.base=flat", path_and_value);
+  set_value(root, path_and_value.substr(0, equals), path_and_value.substr(equals + 1));
+}
+
+void lay_over(ConfigNode& lower, const ConfigNode& upper) {
+  if (lower.kind != ConfigNode::Kind::map || upper.kind != ConfigNode::Kind::map) {
+    lower = upper;
+    return;
+  }
+  for (std::size_t i = 0; i < upper.keys.size(); ++i) {
+    const auto same = std::find_if(lower.keys.begin(), lower.keys.end(), [&](const ConfigNode::Key& key) {
+      return key.name == upper.keys[i].name;
+    });
+    if (same != lower.keys.end()) {
+      lay_over(lower.items[static_cast<std::size_t>(same - lower.keys.begin())], upper.items[i]);
+      continue;
+    }
+    lower.keys.push_back(upper.keys[i]);
+    lower.items.push_back(upper.items[i]);
+  }
+}
+
+std::string flow_text(const ConfigNode& node) {
+  const auto quoted = [](const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  };
+  std::string text;
+  switch (node.kind) {
+    case ConfigNode::Kind::null:
+      return "null";
+    case ConfigNode::Kind::scalar:
+      return quoted(node.text);
+    case ConfigNode::Kind::sequence:
+      for (const ConfigNode& item : node.items) text += (text.empty() ? "" : ", ") + flow_text(item);
+      return "[" + text + "]";
+    case ConfigNode::Kind::map:
+      for (std::size_t i = 0; i < node.keys.size(); ++i)
+        text += (text.empty() ? "" : ", ") + quoted(node.keys[i].name) + ": " + flow_text(node.items[i]);
+      return "{" + text + "}";
+  }
+  return text;
 }
 
 }  // namespace drape::pipeline

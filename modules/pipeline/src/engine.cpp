@@ -7,13 +7,18 @@
 #include <chrono>
 #include <map>
 #include <set>
+#include <tuple>
 
+#include "adopted_parts.hpp"
 #include "artifacts.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
 #include "drape/base/hash.hpp"
 #include "drape/base/log.hpp"
+#include "drape/pipeline/adoption.hpp"
+#include "drape/pipeline/file_lock.hpp"
 #include "drape/pipeline/workspace.hpp"
+#include "execution.hpp"
 #include "peak_memory.hpp"
 #include "publish.hpp"
 
@@ -22,7 +27,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Results = std::map<std::string, StageRecord>;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -33,68 +37,6 @@ struct DamagedResult {
   std::string stage;
   std::string key;
   std::string file;
-};
-
-// What a stage sees of the engine.
-class Execution : public StageRun {
- public:
-  Execution(const Stage& stage, const Config& config, const Workspace& workspace, const Results& results,
-            fs::path folder, Progress progress)
-      : stage_(stage),
-        config_(config),
-        workspace_(workspace),
-        results_(results),
-        folder_(std::move(folder)),
-        progress_(std::move(progress)) {}
-
-  [[nodiscard]] const Input& input() const override { return config_.input; }
-
-  [[nodiscard]] bool has_artifact(std::string_view stage, std::string_view file) const override {
-    const auto result = results_.find(std::string(stage));
-    if (result == results_.end()) return false;
-    const auto& files = result->second.files;
-    return std::any_of(files.begin(), files.end(), [&](const StageFile& f) { return f.name == file; });
-  }
-
-  [[nodiscard]] fs::path artifact(std::string_view stage, std::string_view file) const override {
-    const bool named = std::any_of(stage_.reads.begin(), stage_.reads.end(), [&](const Artifact& a) {
-      return a.stage == stage && matches(a.pattern, file);
-    });
-    // What is not in `reads` is not in the key either.
-    if (!named || !has_artifact(stage, file))
-      throw Error(ErrorCode::bug,
-                  fmt::format("stage {} asks for {}/{}, which it does not read or is not there", stage_.name,
-                              stage, file));
-    return workspace_.stage_folder(std::string(stage), results_.at(std::string(stage)).key) / file;
-  }
-
-  [[nodiscard]] fs::path output(std::string_view file) override {
-    if (std::none_of(stage_.writes.begin(), stage_.writes.end(),
-                     [&](const std::string& p) { return matches(p, file); }))
-      throw Error(ErrorCode::bug,
-                  fmt::format("stage {} writes {}, which its row does not name", stage_.name, file));
-    fs::path path = folder_ / file;
-    make_folder(path.parent_path());
-    return path;
-  }
-
-  [[nodiscard]] const Progress& progress() const override { return progress_; }
-  [[nodiscard]] std::uint64_t seed() const override { return config_.seed; }
-  void metric(std::string name, std::variant<double, std::string> value) override {
-    metrics.emplace_back(std::move(name), std::move(value));
-  }
-  void needs_review(std::string reason) override { review_reasons.push_back(std::move(reason)); }
-
-  std::vector<Metric> metrics;
-  std::vector<std::string> review_reasons;
-
- private:
-  const Stage& stage_;
-  const Config& config_;
-  const Workspace& workspace_;
-  const Results& results_;
-  fs::path folder_;
-  Progress progress_;
 };
 
 std::vector<StageFile> list_files(const fs::path& folder) {
@@ -124,21 +66,24 @@ class Run {
     check_stage_name(options.from);
     check_stage_name(options.until);
     check_stage_name(options.only);
-    last_ = read_run_record(result_.folder / "run.json");
   }
 
   RunResult execute() {
+    const FileLock user = wait_for(workspace_.users_lock(), FileLock::Kind::shared, "results are removed");
+    const FileLock alone = wait_for(workspace_.run_lock(result_.record.name), FileLock::Kind::exclusive,
+                                    "run " + result_.record.name + " is at work");
     make_folder(result_.folder);
     const log::FileSink log_file(result_.folder / "run.log");
+    begin();
     log::debug("{}", options_.command);
     try {
       walk_until_sound();
     } catch (const Interrupted&) {
-      finish("interrupted", {"interrupted"});
+      finish_after_failure("interrupted", "interrupted");
       throw;
     } catch (const std::exception& failure) {
       log::debug("failed: {}", failure.what());
-      finish("failed", {failure.what()});
+      finish_after_failure("failed", failure.what());
       throw;
     }
     std::vector<std::string> reasons;
@@ -159,6 +104,24 @@ class Run {
                        guess.empty() ? "" : "; did you mean " + guess + "?");
   }
 
+  [[nodiscard]] FileLock wait_for(const fs::path& file, FileLock::Kind kind, const std::string& what) const {
+    return FileLock::acquire(file, kind, options_.stop,
+                             [&] { log::info("waiting for another drape process: {}", what); });
+  }
+
+  // Until the run is finished its record says that it is running, with the results of the time before: should
+  // this process die, what changed since can still be told.
+  void begin() {
+    last_ = read_run_record(result_.folder / "run.json");
+    adoptions_ = read_adoptions(workspace_, result_.record.name);
+    digests_ = FileDigests(result_.folder / "digests.json");
+    published_digests_ = FileDigests(result_.folder / "published.json");
+    RunRecord running = result_.record;
+    running.status = "running";
+    if (last_) running.stages = last_->stages;
+    write_run_record(result_.folder / "run.json", running);
+  }
+
   // A damaged result is found when a stage wants to read it; then it is put aside and the walk starts again,
   // which makes just that one anew. Each turn removes one damaged folder, so the turns end.
   void walk_until_sound() {
@@ -167,11 +130,33 @@ class Run {
         walk();
         return;
       } catch (const DamagedResult& damaged) {
-        const fs::path aside = workspace_.set_aside(damaged.stage, damaged.key);
-        log::warn("{}/{} was changed or damaged since it was made; it was moved to {} and is made again",
-                  damaged.stage, damaged.file, aside.string());
+        set_aside(damaged);
       }
     }
+  }
+
+  void set_aside(const DamagedResult& damaged) const {
+    const FileLock lock =
+        wait_for(workspace_.result_lock(damaged.stage, damaged.key), FileLock::Kind::exclusive,
+                 "a damaged result of " + damaged.stage + " is made again");
+    // Another process may have put it right meanwhile.
+    if (const auto record = workspace_.find(damaged.stage, damaged.key); record && is_sound(*record)) return;
+    const fs::path aside = workspace_.set_aside(damaged.stage, damaged.key);
+    log::warn("{}/{} was changed or damaged since it was made; it was moved to {} and is made again",
+              damaged.stage, damaged.file, aside.string());
+  }
+
+  [[nodiscard]] bool is_sound(const StageRecord& record) const {
+    const fs::path folder = workspace_.stage_folder(record.stage, record.key);
+    return std::all_of(record.files.begin(), record.files.end(),
+                       [&](const StageFile& file) { return sha256_file(folder / file.name) == file.digest; });
+  }
+
+  [[nodiscard]] std::vector<Adoption> adopted_for(const std::string& stage) const {
+    std::vector<Adoption> adopted;
+    for (const Adoption& adoption : adoptions_)
+      if (adoption.stage == stage) adopted.push_back(adoption);
+    return adopted;
   }
 
   void walk() {
@@ -188,20 +173,21 @@ class Run {
       const bool forced = (after_from || options_.only == name) && forced_.count(name) == 0;
       const bool may_run = !options_.only || options_.only == name;
 
-      const std::vector<KeyPart> parts =
+      std::vector<KeyPart> parts =
           key_parts(configured, config_, upstream_digests(*configured.stage, results_), digests_);
+      add_adopted(parts, adopted_for(name));
       const std::string key = key_of(name, parts);
       std::optional<StageRecord> record;
       if (!forced) record = workspace_.find(name, key);
-      const bool ran = !record;
-      if (ran && !may_run) {
+      if (!record && !may_run) {
         // What comes after the stage that was asked for is linked as far as it still fits.
         if (after_only) break;
         throw config_error("stage {} has no result that fits this configuration; run without --only first",
                            name);
       }
       const Clock::time_point start = Clock::now();
-      if (ran) record = make(i, parts, key, forced ? "asked for" : "");
+      bool ran = false;
+      if (!record) std::tie(record, ran) = make_or_take(i, parts, key, forced);
       if (forced) forced_.insert(name);
       after_only = after_only || options_.only == name;
 
@@ -212,8 +198,7 @@ class Run {
       result_.record.stages.push_back({name, key, ran, ran ? seconds_since(start) : 0.0});
       result_.stages.push_back(*record);
       results_[name] = std::move(*record);
-      if (configured.stage->published)
-        result_.published = publish(results_[name], workspace_.stage_folder(name, key), config_.output);
+      if (configured.stage->published && options_.publish) publish_files(results_[name]);
       if (options_.until == name) break;
     }
     workspace_.drop_links_except(result_.record.name, links);
@@ -245,6 +230,17 @@ class Run {
     }
   }
 
+  // Makes the result, unless another process made it while this one waited for the lock on it.
+  std::pair<StageRecord, bool> make_or_take(std::size_t index, const std::vector<KeyPart>& parts,
+                                            const std::string& key, bool forced) {
+    const std::string& name = config_.stages[index].stage->name;
+    const FileLock lock = wait_for(workspace_.result_lock(name, key), FileLock::Kind::exclusive,
+                                   "the same result of " + name + " is being made");
+    if (!forced)
+      if (std::optional<StageRecord> record = workspace_.find(name, key)) return {std::move(*record), false};
+    return {make(index, parts, key, forced ? "asked for" : ""), true};
+  }
+
   StageRecord make(std::size_t index, const std::vector<KeyPart>& parts, const std::string& key,
                    const std::string& why) {
     const ConfiguredStage& configured = config_.stages[index];
@@ -255,6 +251,7 @@ class Run {
     const fs::path folder = workspace_.begin(stage.name, key);
     try {
       StageRecord record = write_result(configured, folder, parts, key);
+      digests_.check_unchanged();
       warn_if_not_deterministic(record);
       workspace_.commit(folder, stage.name, key);
       return record;
@@ -276,7 +273,11 @@ class Run {
     reset_peak_memory();
     const Clock::time_point start = Clock::now();
     progress.update(0);
-    configured.instance.run(execution);
+    const std::vector<Adoption> adopted = adopted_for(stage.name);
+    if (adopted.empty())
+      configured.instance.run(execution);
+    else
+      write_adopted(configured, adopted, folder, parts, execution);
     progress.update(1);
     StageRecord record;
     record.stage = stage.name;
@@ -294,6 +295,37 @@ class Run {
     return record;
   }
 
+  // The stage's own files, made if they are not there, with the adopted ones in their places.
+  void write_adopted(const ConfiguredStage& configured, const std::vector<Adoption>& adopted,
+                     const fs::path& folder, const std::vector<KeyPart>& parts, Execution& execution) {
+    const Stage& stage = *configured.stage;
+    const std::string own_key = key_of(stage.name, without_adopted(parts));
+    if (const auto own = workspace_.find(stage.name, own_key)) {
+      for (const StageFile& file : own->files) {
+        const fs::path source = workspace_.stage_folder(stage.name, own_key) / file.name;
+        if (sha256_file(source) != file.digest) throw DamagedResult{stage.name, own_key, file.name};
+        write_file(execution.output(file.name), read_file(source));
+      }
+      execution.metrics = own->metrics;
+    } else if (!covers(adopted, stage)) {
+      configured.instance.run(execution);
+    }
+    for (const Adoption& adoption : adopted) {
+      const fs::path source = adopted_file(workspace_, result_.record.name, adoption);
+      write_file(execution.output(adoption.file), read_file(source));
+      if (sha256_file(folder / adoption.file) != adoption.digest)
+        throw input_error("{}: is not the file that was adopted; adopt it again", source.string());
+      execution.metric("adopted_" + adoption.file, adoption.came_from);
+    }
+  }
+
+  void publish_files(const StageRecord& record) {
+    const FileLock lock = wait_for(workspace_.output_lock(config_.output), FileLock::Kind::exclusive,
+                                   config_.output.string() + " is written");
+    result_.published = publish(record, workspace_.stage_folder(record.stage, record.key), config_.output,
+                                published_digests_);
+  }
+
   void warn_if_not_deterministic(const StageRecord& made) const {
     const std::optional<StageRecord> before = workspace_.find(made.stage, made.key);
     if (!before) return;
@@ -309,6 +341,17 @@ class Run {
     result_.record.reasons = std::move(reasons);
     result_.record.seconds = seconds_since(start_);
     write_run_record(result_.folder / "run.json", result_.record);
+    digests_.save();
+    published_digests_.save();
+  }
+
+  // The failure itself is what the user must hear, not that it could not be written down too.
+  void finish_after_failure(const std::string& status, const std::string& reason) {
+    try {
+      finish(status, {reason});
+    } catch (const std::exception& second) {
+      log::warn("{}", second.what());
+    }
   }
 
   const Config& config_;
@@ -317,7 +360,9 @@ class Run {
   Workspace workspace_;
   Clock::time_point start_ = Clock::now();
   std::optional<RunRecord> last_;
-  InputDigests digests_;
+  std::vector<Adoption> adoptions_;
+  FileDigests digests_;
+  FileDigests published_digests_;
   Results results_;
   std::set<std::string> forced_;  // stages that were made again already, should the walk start anew
   RunResult result_;

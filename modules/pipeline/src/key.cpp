@@ -13,7 +13,7 @@ namespace {
 
 class Parts {
  public:
-  explicit Parts(InputDigests& digests) : digests_(digests) {}
+  explicit Parts(FileDigests& digests) : digests_(digests) {}
 
   void add(std::string name, const OptionValue& value) {
     parts.push_back({std::move(name), canonical(value), readable(value)});
@@ -36,7 +36,7 @@ class Parts {
   std::vector<KeyPart> parts;
 
  private:
-  InputDigests& digests_;
+  FileDigests& digests_;
 };
 
 void add_photo_part(Parts& parts, const std::string& part, const PhotoInput& photo, const std::string& name) {
@@ -91,14 +91,8 @@ void add_input_part(Parts& parts, const std::string& part, const Input& input) {
 
 }  // namespace
 
-const std::string& InputDigests::of(const fs::path& file) {
-  const auto found = digests_.find(file);
-  if (found != digests_.end()) return found->second;
-  return digests_.emplace(file, sha256_file(file)).first->second;
-}
-
 std::vector<KeyPart> key_parts(const ConfiguredStage& configured, const Config& config,
-                               const UpstreamDigests& upstream, InputDigests& digests) {
+                               const UpstreamDigests& upstream, FileDigests& digests) {
   Parts parts(digests);
   parts.add("version", OptionValue(std::int64_t{configured.stage->version}));
   parts.add("seed", OptionValue(static_cast<std::int64_t>(config.seed)));
@@ -132,6 +126,7 @@ std::vector<std::string> differences(const std::string& stage, const std::vector
   const auto title = [&](const std::string& name) {
     if (name.rfind("option.", 0) == 0) return fmt::format("option {}.{}", stage, name.substr(7));
     if (name.rfind("file.", 0) == 0) return name.substr(5);
+    if (name.rfind("adopted.", 0) == 0) return fmt::format("the adopted {}/{}", stage, name.substr(8));
     if (name == "version") return fmt::format("the version of stage {}", stage);
     return name;
   };
@@ -140,8 +135,10 @@ std::vector<std::string> differences(const std::string& stage, const std::vector
     const KeyPart* old = find(before, part.name);
     if (old == nullptr)
       lines.push_back(fmt::format("{} is new", title(part.name)));
-    else if (old->value != part.value && (part.name.rfind("file.", 0) == 0 || old->readable == part.readable))
+    else if (old->value != part.value && part.name.rfind("file.", 0) == 0)
       lines.push_back(fmt::format("{} has other contents", title(part.name)));
+    else if (old->value != part.value && old->readable == part.readable)
+      lines.push_back(fmt::format("{} ({}) has other contents", title(part.name), part.readable));
     else if (old->value != part.value)
       lines.push_back(fmt::format("{}: {} -> {}", title(part.name), old->readable, part.readable));
   }

@@ -8,7 +8,6 @@
 
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
-#include "drape/base/hash.hpp"
 
 namespace drape::pipeline {
 namespace fs = std::filesystem;
@@ -22,21 +21,22 @@ void sync(const fs::path& path) {
   if (!synced) throw io_error("{}: cannot be written safely: {}", path.string(), std::strerror(problem));
 }
 
-bool same_file(const fs::path& file, const StageFile& wanted) {
+bool same_file(const fs::path& file, const StageFile& wanted, FileDigests& digests) {
   std::error_code problem;
   return fs::is_regular_file(file, problem) && fs::file_size(file, problem) == wanted.bytes && !problem &&
-         sha256_file(file) == wanted.digest;
+         digests.of(file) == wanted.digest;
 }
 
 }  // namespace
 
-std::vector<fs::path> publish(const StageRecord& record, const fs::path& folder, const fs::path& output) {
+std::vector<fs::path> publish(const StageRecord& record, const fs::path& folder, const fs::path& output,
+                              FileDigests& digests) {
   std::vector<fs::path> files;
   bool copied = false;
   for (const StageFile& entry : record.files) {
     const fs::path target = output / entry.name;
     files.push_back(target);
-    if (same_file(target, entry)) continue;
+    if (same_file(target, entry, digests)) continue;
     make_folder(target.parent_path());
     write_file_aside(target, [&](const fs::path& aside) {
       std::error_code problem;

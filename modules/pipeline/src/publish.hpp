@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "drape/pipeline/file_digests.hpp"
 #include "drape/pipeline/records.hpp"
 
 namespace drape::pipeline {
@@ -12,6 +13,6 @@ namespace drape::pipeline {
 /// aside, synced, renamed. What is there with the same bytes stays untouched. Returns the files in `output`.
 /// Error{io}.
 std::vector<std::filesystem::path> publish(const StageRecord& record, const std::filesystem::path& folder,
-                                           const std::filesystem::path& output);
+                                           const std::filesystem::path& output, FileDigests& digests);
 
 }  // namespace drape::pipeline

@@ -1,15 +1,17 @@
 #include "drape/pipeline/workspace.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
-#include "drape/base/numbers.hpp"
+#include "drape/base/hash.hpp"
+#include "drape/pipeline/file_lock.hpp"
 
 namespace drape::pipeline {
 namespace fs = std::filesystem;
@@ -21,21 +23,6 @@ void rename_or_throw(const fs::path& from, const fs::path& to) {
   if (problem) throw io_error("{}: cannot rename to {}: {}", from.string(), to.string(), problem.message());
 }
 
-bool process_lives(std::int64_t pid) {
-  return ::kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM;
-}
-
-// <key>.<pid>.writing of processes that are no more.
-void remove_leftovers(const fs::path& folder, const std::string& key) {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind(key + ".", 0) != 0 || entry.path().extension() != ".writing") continue;
-    const auto pid = parse_integer(name.substr(key.size() + 1, name.size() - key.size() - 9));
-    if (!pid || *pid == ::getpid() || !process_lives(*pid)) fs::remove_all(entry.path(), ignored);
-  }
-}
-
 }  // namespace
 
 fs::path Workspace::stage_folder(const std::string& stage, const std::string& key) const {
@@ -44,6 +31,18 @@ fs::path Workspace::stage_folder(const std::string& stage, const std::string& ke
 
 fs::path Workspace::run_folder(const std::string& run) const {
   return folder_ / "runs" / run;
+}
+
+fs::path Workspace::result_lock(const std::string& stage, const std::string& key) const {
+  return folder_ / "locks" / fmt::format("{}-{}", stage, key);
+}
+
+fs::path Workspace::run_lock(const std::string& run) const {
+  return folder_ / "locks" / ("run-" + sha256(run).substr(0, 16));
+}
+
+fs::path Workspace::output_lock(const fs::path& output) const {
+  return folder_ / "locks" / ("output-" + sha256(output.string()).substr(0, 16));
 }
 
 std::optional<StageRecord> Workspace::find(const std::string& stage, const std::string& key) const {
@@ -58,10 +57,10 @@ std::optional<StageRecord> Workspace::find(const std::string& stage, const std::
 }
 
 fs::path Workspace::begin(const std::string& stage, const std::string& key) const {
-  const fs::path parent = folder_ / "stages" / stage;
-  make_folder(parent);
-  remove_leftovers(parent, key);
-  fs::path writing = parent / fmt::format("{}.{}.writing", key, ::getpid());
+  const fs::path writing = folder_ / "stages" / stage / (key + ".writing");
+  std::error_code problem;
+  fs::remove_all(writing, problem);
+  if (problem) throw io_error("{}: cannot be removed: {}", writing.string(), problem.message());
   make_folder(writing);
   return writing;
 }
@@ -69,9 +68,13 @@ fs::path Workspace::begin(const std::string& stage, const std::string& key) cons
 void Workspace::commit(const fs::path& writing, const std::string& stage, const std::string& key) const {
   const fs::path target = stage_folder(stage, key);
   if (fs::exists(target)) {
-    const fs::path old = target.parent_path() / fmt::format("{}.{}.old.writing", key, ::getpid());
-    rename_or_throw(target, old);
-    rename_or_throw(writing, target);
+    // Exchanged in one step where the file system can; in any case never half of the old and half of the new.
+    fs::path old = writing;
+    if (::renameat2(AT_FDCWD, writing.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {
+      old = target.string() + ".old.writing";
+      rename_or_throw(target, old);
+      rename_or_throw(writing, target);
+    }
     std::error_code ignored;
     fs::remove_all(old, ignored);
     return;
@@ -93,7 +96,7 @@ void Workspace::link(const std::string& run, std::size_t number, const std::stri
   const fs::path folder = run_folder(run);
   make_folder(folder);
   const fs::path name = folder / fmt::format("{}-{}", number, stage);
-  const fs::path target = fs::path("..") / ".." / "stages" / stage / key;
+  const fs::path target = stage_folder(stage, key).lexically_relative(folder);
   std::error_code problem;
   if (fs::read_symlink(name, problem) == target) return;
   const fs::path aside = folder / fmt::format(".{}-{}.{}", number, stage, ::getpid());
@@ -115,8 +118,11 @@ std::vector<RunRecord> Workspace::runs() const {
   std::vector<RunRecord> records;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "runs", ignored))
-    if (std::optional<RunRecord> record = read_run_record(entry.path() / "run.json"))
+    if (std::optional<RunRecord> record = read_run_record(entry.path() / "run.json")) {
+      if (record->status == "running" && !FileLock::is_held(run_lock(record->name)))
+        record->status = "interrupted";
       records.push_back(std::move(*record));
+    }
   std::sort(records.begin(), records.end(), [](const RunRecord& a, const RunRecord& b) {
     return a.started_at != b.started_at ? a.started_at > b.started_at : a.name < b.name;
   });

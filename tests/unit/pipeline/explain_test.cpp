@@ -30,7 +30,7 @@ TEST(Explain, NamesWhatChanged) {
   EXPECT_EQ(forecast_text(project, {"seed=3"}).substr(0, 26), "read:run[seed: 1 -> 3] cha");
   project.write_text("other words");
   EXPECT_NE(forecast_text(project).find(
-                "read:run[input.mesh has other contents] change:may[reads read, which would run]"),
+                "read:run[input.mesh (text.txt) has other contents] change:may[reads read, which would run]"),
             std::string::npos)
       << forecast_text(project);
 }

@@ -37,6 +37,17 @@ struct Config {
 [[nodiscard]] Config load_config(const std::filesystem::path& file, std::span<const Stage> table,
                                  std::span<const std::string> sets);
 
+/// A configuration that is no file of its own, such as one object of a batch.
+struct ConfigSource {
+  std::string name;
+  std::filesystem::path file;  // absolute; what messages and records name
+  std::string text;            // for the record
+  ConfigNode root;             // a map
+};
+/// The same for a tree. Paths are relative to the folder of `source.file`.
+[[nodiscard]] Config configure(ConfigSource source, std::span<const Stage> table,
+                               std::span<const std::string> sets);
+
 /// Gives the options what a map node says. Adds a line to `problems` for each unknown key and each wrong
 /// value; `section` names the keys in them ("fill" for fill.base).
 void assign_options(const std::vector<Option>& options, const ConfigNode& section_node,

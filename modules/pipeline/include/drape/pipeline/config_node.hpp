@@ -40,5 +40,14 @@ struct ConfigNode {
 /// Puts `value` (YAML in one line) where `path` says: "fill.base", "input.photos[0].mask". Maps on the way
 /// are made; an index may be one past the end. Error{config}.
 void set_value(ConfigNode& root, std::string_view path, std::string_view value);
+/// The same for "path=value", as --set has it.
+void set_value(ConfigNode& root, std::string_view path_and_value);
+
+/// Puts what `upper` says over `lower`: maps key by key, everything else as a whole.
+void lay_over(ConfigNode& lower, const ConfigNode& upper);
+
+/// YAML in one line, which parse_yaml reads back to the same tree but for the places of its nodes. It is JSON
+/// too: every scalar is quoted.
+[[nodiscard]] std::string flow_text(const ConfigNode& node);
 
 }  // namespace drape::pipeline

@@ -19,6 +19,7 @@ struct RunOptions {
   std::optional<std::string> from;   // this stage and all later ones run again, results or not
   std::optional<std::string> until;  // the last stage
   std::optional<std::string> only;   // this stage runs again; no other stage runs
+  bool publish = true;               // copy what the last stage makes to the configuration's output
   std::string command;               // for the record: what makes this run again
   std::vector<std::pair<std::string, std::string>> versions;  // of drape and its libraries, for the records
   const std::atomic<bool>* stop = nullptr;                    // set by a signal handler
@@ -46,8 +47,15 @@ struct RunResult {
 
 /// Throws what a stage throws, after the run's record says so; a stage that fails leaves nothing behind.
 /// A stage always reads committed files; before it does, their digests are checked, and what was damaged is
-/// put aside and made again with a warning.
+/// put aside and made again with a warning. Several processes may run at once: of one run, or results that
+/// they share, the later ones wait and take what the first one made.
 [[nodiscard]] RunResult run(const Config& config, const RunOptions& options, RunObserver& observer);
+
+/// What a stage took when it ran.
+struct StageCost {
+  double seconds = 0;
+  double peak_memory_mb = 0;
+};
 
 /// What run() would do with a stage.
 struct Forecast {
@@ -59,6 +67,8 @@ struct Forecast {
   std::string stage;
   State state = State::up_to_date;
   std::vector<std::string> reasons;
+  std::optional<StageCost>
+      cost;  // of running it, by earlier runs; nothing if there is none, or none is needed
 };
 [[nodiscard]] std::vector<Forecast> explain(const Config& config, const std::string& run_name);
 

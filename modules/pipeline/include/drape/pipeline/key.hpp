@@ -1,12 +1,12 @@
 // The identity of a stage's result: everything that its bytes depend on, and nothing else.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "drape/pipeline/config.hpp"
+#include "drape/pipeline/file_digests.hpp"
 
 namespace drape::pipeline {
 
@@ -19,16 +19,6 @@ struct KeyPart {
   bool operator==(const KeyPart&) const = default;
 };
 
-/// Digests of input files, each computed once.
-class InputDigests {
- public:
-  /// Error{input} if the file cannot be read.
-  [[nodiscard]] const std::string& of(const std::filesystem::path& file);
-
- private:
-  std::map<std::filesystem::path, std::string> digests_;
-};
-
 /// File of an earlier stage -> its digest; names are "stage/file".
 using UpstreamDigests = std::map<std::string, std::string>;
 
@@ -36,7 +26,7 @@ using UpstreamDigests = std::map<std::string, std::string>;
 /// digests of the upstream files that it reads, and the seed. Folders, times, host and thread count are left
 /// out on purpose.
 [[nodiscard]] std::vector<KeyPart> key_parts(const ConfiguredStage& stage, const Config& config,
-                                             const UpstreamDigests& upstream, InputDigests& digests);
+                                             const UpstreamDigests& upstream, FileDigests& digests);
 
 /// 32 hexadecimal digits of the SHA-256 over all parts.
 [[nodiscard]] std::string key_of(const std::string& stage, const std::vector<KeyPart>& parts);

@@ -1,0 +1,89 @@
+#include "drape/report/comparison_page.hpp"
+
+#include <fmt/format.h>
+
+#include "html_text.hpp"
+#include "page_parts.hpp"
+#include "page_style.hpp"
+
+namespace drape::report {
+namespace {
+
+constexpr std::string_view comparison_style = R"css(
+.frame.wide { grid-template-columns: minmax(0, 1fr); }
+.scroll { overflow-x: auto; margin-top: 1rem; }
+.compare { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums; }
+.compare th, .compare td { padding: .3rem .7rem; border-bottom: 1px solid var(--line); text-align: left; white-space: nowrap; }
+.compare th { color: var(--soft); font-weight: 600; }
+.plots { display: grid; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr)); gap: 1.2rem; margin-top: 1rem; }
+.plots svg { width: 100%; height: auto; }
+.pairs { display: grid; gap: 1rem; margin-top: 1rem; }
+.pairs figure { min-width: 0; }
+.pairs img { width: 100%; height: auto; background: var(--plate); border-radius: 8px; }
+.pairs figcaption { font-size: .85rem; color: var(--soft); overflow-wrap: anywhere; }
+)css";
+
+std::string table_of(const ComparisonSection& section) {
+  if (section.rows.empty()) return {};
+  std::string text = "<div class=\"scroll\" tabindex=\"0\"><table class=\"compare\"><thead><tr>";
+  for (const std::string& column : section.columns) text += "<th scope=\"col\">" + escaped(column) + "</th>";
+  text += "</tr></thead><tbody>\n";
+  for (const std::vector<std::string>& row : section.rows) {
+    text += "<tr>";
+    for (const std::string& cell : row) text += "<td>" + escaped(cell) + "</td>";
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string pictures_of(const ComparisonSection& section, std::size_t index) {
+  if (section.pictures.empty()) return {};
+  if (section.pictures_in_row == 0)
+    return picture_grid(section.pictures, fmt::format("pictures-{}", index), false);
+  std::string text =
+      fmt::format("<div class=\"pairs\" style=\"grid-template-columns: repeat({}, minmax(0, 1fr))\">\n",
+                  section.pictures_in_row);
+  for (const Picture& picture : section.pictures) {
+    if (picture.png_or_jpeg_bytes.empty()) {
+      text += "<p class=\"meta\">" + escaped(picture.title) + ": not there</p>\n";
+      continue;
+    }
+    const bool png = picture.png_or_jpeg_bytes[0] == '\x89';
+    text += fmt::format(
+        "<figure><img alt=\"{}\" src=\"data:image/{};base64,{}\"/><figcaption>{}</figcaption></figure>\n",
+        escaped(picture.alt_text), png ? "png" : "jpeg", base64(picture.png_or_jpeg_bytes),
+        escaped(picture.title));
+  }
+  return text + "</div>\n";
+}
+
+}  // namespace
+
+std::string render_comparison(const ComparisonPage& page) {
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta "
+      "charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\"/>\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<div class=\"frame "
+      "wide\">\n<main>\n",
+      escaped(page.title), page_style(), comparison_style);
+  text += fmt::format(
+      "<section class=\"card\"><p class=\"eyebrow\">{}</p><h1>{}</h1><p class=\"meta\">{}</p></section>\n",
+      escaped(page.eyebrow), escaped(page.title), escaped(page.facts));
+  for (std::size_t i = 0; i < page.sections.size(); ++i) {
+    const ComparisonSection& section = page.sections[i];
+    text += "<section class=\"card\"><h2>" + escaped(section.heading) + "</h2>\n";
+    if (!section.text.empty()) text += "<p class=\"meta\">" + escaped(section.text) + "</p>\n";
+    text += table_of(section);
+    if (!section.plots.empty()) {
+      text += "<div class=\"plots\">\n";
+      for (const Plot& plot : section.plots) text += plot_svg(plot);
+      text += "</div>\n";
+    }
+    text += pictures_of(section, i + 1) + "</section>\n";
+  }
+  return text +
+         "<footer>Made by drape. Everything on this page is in this one "
+         "file.</footer>\n</main>\n</div>\n</body>\n</html>\n";
+}
+
+}  // namespace drape::report
