@@ -42,9 +42,9 @@ void for_each_edge(const std::vector<HalfEdge>& edges, Visit visit) {
   }
 }
 
-std::vector<std::vector<std::uint32_t>> loops_of(const TriangleMesh& mesh,
-                                                 const std::vector<HalfEdge>& edges) {
-  // Border half-edges run against their face, so that a loop keeps the hole on its left.
+// Reversed edges with one face, sorted: border edges run against their face, so that the hole is on their
+// left.
+std::vector<std::array<std::uint32_t, 2>> border_of(const std::vector<HalfEdge>& edges) {
   std::vector<std::array<std::uint32_t, 2>> border;
   for_each_edge(edges, [&](std::size_t begin, std::size_t end) {
     if (end - begin != 1) return;
@@ -52,29 +52,66 @@ std::vector<std::vector<std::uint32_t>> loops_of(const TriangleMesh& mesh,
     border.push_back(e.forward ? std::array{e.high, e.low} : std::array{e.low, e.high});
   });
   std::sort(border.begin(), border.end());
-  std::vector<std::uint32_t> first(mesh.vertices.size() + 1, 0);  // border edges that leave a vertex
-  for (const auto& edge : border) ++first[edge[0] + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<std::uint8_t> used(border.size(), 0);
+  return border;
+}
 
-  std::vector<std::vector<std::uint32_t>> loops;
+BoundaryLoop from_least_vertex(std::vector<std::uint32_t> vertices, bool closed) {
+  if (closed)
+    std::rotate(vertices.begin(), std::min_element(vertices.begin(), vertices.end()), vertices.end());
+  return {std::move(vertices), closed};
+}
+
+std::vector<BoundaryLoop> loops_of(std::size_t vertex_count,
+                                   const std::vector<std::array<std::uint32_t, 2>>& border) {
+  std::vector<std::uint32_t> next(vertex_count + 1, 0);  // the first unused border edge from each vertex
+  for (const auto& edge : border) ++next[edge[0] + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  const std::vector<std::uint32_t> end(next.begin() + 1, next.end());
+
+  constexpr std::uint32_t not_on_path = 0xffffffffU;
+  std::vector<std::uint32_t> place(vertex_count, not_on_path);  // on the path walked so far
+  std::vector<BoundaryLoop> loops;
   for (std::size_t start = 0; start < border.size(); ++start) {
-    if (used[start]) continue;
-    std::vector<std::uint32_t> loop;
-    std::size_t edge = start;
+    std::vector<std::uint32_t> path;
+    std::uint32_t v = border[start][0];
+    // Walk until every border edge from here is used up; a vertex that comes up again closes a simple loop.
     while (true) {
-      used[edge] = 1;
-      loop.push_back(border[edge][0]);
-      const std::uint32_t tip = border[edge][1];
-      if (tip == border[start][0]) break;
-      std::size_t next = first[tip];
-      while (next < first[tip + 1] && used[next]) ++next;
-      if (next == first[tip + 1]) break;  // inconsistent faces: an open chain, reported as it is
-      edge = next;
+      if (place[v] != not_on_path) {
+        const auto begin = path.begin() + place[v];
+        std::vector<std::uint32_t> loop(begin, path.end());
+        path.erase(begin, path.end());
+        for (const std::uint32_t w : loop) place[w] = not_on_path;
+        loops.push_back(from_least_vertex(std::move(loop), true));
+      }
+      if (next[v] == end[v]) break;
+      place[v] = static_cast<std::uint32_t>(path.size());
+      path.push_back(v);
+      v = border[next[v]++][1];
     }
-    loops.push_back(std::move(loop));
+    if (path.empty()) continue;
+    for (const std::uint32_t w : path) place[w] = not_on_path;
+    path.push_back(v);
+    loops.push_back(from_least_vertex(std::move(path), false));
   }
+  std::stable_sort(loops.begin(), loops.end(), [](const BoundaryLoop& a, const BoundaryLoop& b) {
+    return a.vertices.front() < b.vertices.front();
+  });
   return loops;
+}
+
+// The number of sets of border edges that hang together by their vertices.
+std::size_t border_count(std::size_t vertex_count, const std::vector<std::array<std::uint32_t, 2>>& border) {
+  std::vector<std::uint32_t> parent(vertex_count);
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& edge : border) parent[root(edge[0])] = root(edge[1]);
+  std::vector<std::uint32_t> roots;
+  for (const auto& edge : border) roots.push_back(root(edge[0]));
+  std::sort(roots.begin(), roots.end());
+  return static_cast<std::size_t>(std::unique(roots.begin(), roots.end()) - roots.begin());
 }
 
 std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& edges) {
@@ -99,8 +136,8 @@ std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, const std::ve
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> boundary_loops(const TriangleMesh& mesh) {
-  return loops_of(mesh, sorted_half_edges(mesh));
+std::vector<BoundaryLoop> boundary_loops(const TriangleMesh& mesh) {
+  return loops_of(mesh.vertices.size(), border_of(sorted_half_edges(mesh)));
 }
 
 std::vector<std::uint32_t> face_components(const TriangleMesh& mesh) {
@@ -118,7 +155,9 @@ MeshTopology mesh_topology(const TriangleMesh& mesh) {
   });
   const std::vector<std::uint32_t> components = components_of(mesh, edges);
   if (!components.empty()) topology.components = 1 + *std::max_element(components.begin(), components.end());
-  topology.boundary_loops = loops_of(mesh, edges).size();
+  const std::vector<std::array<std::uint32_t, 2>> border = border_of(edges);
+  topology.boundary_loops = loops_of(mesh.vertices.size(), border).size();
+  topology.borders = border_count(mesh.vertices.size(), border);
 
   std::vector<std::uint8_t> used(mesh.vertices.size(), 0);
   for (const Face& f : mesh.faces)

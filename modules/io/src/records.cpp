@@ -409,8 +409,10 @@ void write_holes(const std::filesystem::path& file, const HolesRecord& record) {
     root["holes"].push_back({{"boundary_edges", hole.boundary_edges},
                              {"length_m", json_of(hole.length_m, "length_m")},
                              {"length_spacings", json_of(hole.length_spacings, "length_spacings")},
+                             {"area_m2", json_of(hole.area_m2, "area_m2")},
+                             {"flatness_m", json_of(hole.flatness_m, "flatness_m")},
                              {"center", list_of(hole.center, "center")},
-                             {"filled", hole.filled},
+                             {"action", hole.action},
                              {"why", hole.why},
                              {"faces_added", hole.faces_added}});
   save(file, root);
@@ -427,7 +429,8 @@ HolesRecord read_holes(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < holes.size(); ++i) {
     const Node hole = holes.at(i);
     record.holes.push_back({hole["boundary_edges"].count(), hole["length_m"].number(),
-                            hole["length_spacings"].number(), hole["center"].vector(), hole["filled"].flag(),
+                            hole["length_spacings"].number(), hole["area_m2"].number(),
+                            hole["flatness_m"].number(), hole["center"].vector(), hole["action"].text(),
                             hole["why"].text(), hole["faces_added"].count()});
   }
   return record;

@@ -116,7 +116,8 @@ Cleaned without_border_teeth(const TriangleMesh& mesh, int rounds) {
 
 Cleaned with_joined_borders(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> border;
-  for (const auto& loop : boundary_loops(mesh)) border.insert(border.end(), loop.begin(), loop.end());
+  for (const BoundaryLoop& loop : boundary_loops(mesh))
+    border.insert(border.end(), loop.vertices.begin(), loop.vertices.end());
   std::sort(border.begin(), border.end());
   border.erase(std::unique(border.begin(), border.end()), border.end());
   std::stable_sort(border.begin(), border.end(), [&](std::uint32_t a, std::uint32_t b) {

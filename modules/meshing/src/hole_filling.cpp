@@ -1,24 +1,24 @@
 #include "drape/meshing/hole_filling.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "boundary.hpp"
 #include "cleaning.hpp"
 #include "drape/base/error.hpp"
 #include "drape/geometry/mesh_topology.hpp"
 #include "drape/meshing/simplify.hpp"
 #include "edge_repair.hpp"
+#include "hole_measures.hpp"
+#include "nested_holes.hpp"
 #include "patching.hpp"
+#include "seen_space.hpp"
+#include "smoothing.hpp"
 #include "vertex_fans.hpp"
 
 namespace drape::meshing {
 namespace {
 
-// A loop that spans more than this share of its piece's area bounds an open sheet: it is no hole in it.
-constexpr double sheet_share = 0.25;
 TriangleMesh repaired(const TriangleMesh& mesh, const FillOptions& options, FillResult& result) {
   Cleaned cleaned{mesh, 0};
   if (options.repair) {
@@ -34,46 +34,127 @@ TriangleMesh repaired(const TriangleMesh& mesh, const FillOptions& options, Fill
   return std::move(cleaned.mesh);
 }
 
-Hole measured(const TriangleMesh& mesh, const SimpleLoop& loop) {
-  Hole hole;
-  const std::size_t count = loop.vertices.size();
-  hole.boundary_edges = loop.closed ? count : count - 1;
-  const Eigen::Vector3d& origin = mesh.vertices[loop.vertices[0]];
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d a = mesh.vertices[loop.vertices[i]] - origin;
-    const Eigen::Vector3d b = mesh.vertices[loop.vertices[(i + 1) % count]] - origin;
-    sum += a;
-    if (i < hole.boundary_edges) hole.length += (b - a).norm();
-    twice_area += a.cross(b);
+// Loops with a rule each: filled in what style, or left and why.
+struct Plan {
+  std::vector<BoundaryLoop> loops;
+  std::vector<Hole> holes;
+  std::vector<PatchStyle> styles;   // of the holes without a `why`
+  std::vector<std::size_t> around;  // the loop that each one lies in, or itself
+};
+
+std::size_t longest(const std::vector<Hole>& holes) {
+  return static_cast<std::size_t>(
+      std::max_element(holes.begin(), holes.end(),
+                       [](const Hole& a, const Hole& b) { return a.length < b.length; }) -
+      holes.begin());
+}
+
+Plan planned(const TriangleMesh& mesh, double spacing, const FillOptions& options) {
+  const Pieces pieces(mesh);
+  const VertexFaces around(mesh);
+  Plan plan;
+  plan.loops = boundary_loops(mesh);
+  for (const BoundaryLoop& loop : plan.loops) plan.holes.push_back(measured(mesh, loop));
+  plan.around = loops_around(mesh, pieces, plan.loops, plan.holes, spacing);
+  plan.styles.assign(plan.loops.size(), PatchStyle::smooth);
+  const double limit = options.max_hole_size_spacings * spacing;
+  for (std::size_t i = 0; i < plan.loops.size(); ++i) {
+    Hole& hole = plan.holes[i];
+    const BoundaryLoop& loop = plan.loops[i];
+    const double piece_area = pieces.area(pieces.of_vertex(loop.vertices[0]));
+    if (!loop.closed) {
+      hole.why = "the faces round it are inconsistent: it is no closed loop";
+    } else if (limit > 0 && options.base == Base::flat && i == longest(plan.holes)) {
+      plan.styles[i] = PatchStyle::flat;
+    } else if (plan.around[i] != i) {
+      continue;  // it goes with the loop round it
+    } else if (options.keep_outer_border && is_sheet_rim(hole, piece_area)) {
+      hole.why = "outer border of an open sheet";
+    } else if (limit > 0 && is_base(mesh, around, pieces, loop, hole, spacing)) {
+      plan.styles[i] = PatchStyle::flat;
+      if (options.base == Base::leave) hole.why = "a flat base";
+    } else if (hole.length >= limit) {
+      hole.why = "not shorter than max_hole_size_spacings";
+    }
   }
-  hole.center = origin + sum / static_cast<double>(count);
-  hole.area = twice_area.norm() / 2;
-  return hole;
+  // What lies in a hole that stays open stays open.
+  for (std::size_t i = 0; i < plan.loops.size(); ++i)
+    if (plan.around[i] != i && !plan.holes[plan.around[i]].why.empty())
+      plan.holes[i].why = "inside a hole that stays open";
+  return plan;
 }
 
-// Area of the edge-connected piece that each vertex is in.
-std::vector<double> piece_areas(const TriangleMesh& mesh) {
-  const std::vector<std::uint32_t> component = face_components(mesh);
-  std::vector<double> area(mesh.faces.size(), 0);
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
-    area[component[i]] += scaled_face_normal(mesh, i).norm() / 2;
-  std::vector<double> of_vertex(mesh.vertices.size(), 0);
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
-    for (const std::uint32_t v : mesh.faces[i]) of_vertex[v] = area[component[i]];
-  return of_vertex;
+// The loops to fill, with what lies in them joined to them by bridges.
+struct Bridged {
+  TriangleMesh mesh;  // bridges appended
+  std::vector<LoopToFill> loops;
+  std::vector<std::size_t> hole_of;                    // per loop
+  std::vector<std::vector<std::size_t>> bridge_faces;  // per loop
+};
+
+Bridged with_bridges(const TriangleMesh& mesh, const Plan& plan) {
+  Bridged result;
+  result.mesh = mesh;
+  result.mesh.filled.resize(mesh.faces.size(), 0);
+  for (std::size_t i = 0; i < plan.loops.size(); ++i) {
+    if (plan.around[i] != i || !plan.holes[i].why.empty()) continue;
+    std::vector<std::uint32_t> loop = plan.loops[i].vertices;
+    result.bridge_faces.emplace_back();
+    for (std::size_t inner = 0; inner < plan.loops.size(); ++inner) {
+      if (inner == i || plan.around[inner] != i) continue;
+      BridgedLoop joined = bridged(mesh, loop, plan.loops[inner].vertices);
+      loop = std::move(joined.loop);
+      for (const Face& f : joined.bridge) {
+        result.bridge_faces.back().push_back(result.mesh.faces.size());
+        result.mesh.faces.push_back(f);
+        result.mesh.filled.push_back(1);
+      }
+    }
+    result.loops.push_back({std::move(loop), plan.styles[i]});
+    result.hole_of.push_back(i);
+  }
+  return result;
 }
 
-// Empty if the hole is to be filled, else why it stays open.
-std::string why_left(const Hole& hole, const SimpleLoop& loop, double piece_area, double spacing,
-                     const FillOptions& options) {
-  if (!loop.closed) return "the faces round it are inconsistent: it is no closed loop";
-  if (options.keep_outer_border && hole.area >= sheet_share * piece_area)
-    return "outer border of an open sheet";
-  if (hole.length >= options.max_hole_size_spacings * spacing)
-    return "not shorter than max_hole_size_spacings";
-  return {};
+// Bridges whose hole stays open after all go again.
+void drop_faces(TriangleMesh& mesh, const std::vector<std::size_t>& faces) {
+  for (auto f = faces.rbegin(); f != faces.rend(); ++f) {
+    mesh.faces.erase(mesh.faces.begin() + static_cast<std::ptrdiff_t>(*f));
+    mesh.filled.erase(mesh.filled.begin() + static_cast<std::ptrdiff_t>(*f));
+  }
+}
+
+std::string reason(const Hole& hole, const Patched::Hole& patch, double limit) {
+  if (patch.action == HoleAction::leave) return patch.how;
+  if (patch.action == HoleAction::flat) return "a flat base; " + patch.how;
+  return (hole.length < limit ? "shorter than max_hole_size_spacings; " : "the longest border; ") + patch.how;
+}
+
+// Fills what the plan says, and writes into its holes what became of them.
+Patched carried_out(const TriangleMesh& mesh, Plan& plan, double limit, const SpaceToKeep* keep,
+                    const Progress& progress) {
+  const Bridged bridged = with_bridges(mesh, plan);
+  Patched patched = with_patches(bridged.mesh, bridged.loops, keep, progress);
+  std::vector<std::size_t> useless;
+  for (std::size_t k = 0; k < bridged.loops.size(); ++k) {
+    const std::size_t i = bridged.hole_of[k];
+    Hole& hole = plan.holes[i];
+    hole.why = reason(hole, patched.holes[k], limit);
+    hole.action = patched.holes[k].action;
+    if (hole.filled())
+      hole.faces_added = patched.holes[k].faces + bridged.bridge_faces[k].size();
+    else
+      useless.insert(useless.end(), bridged.bridge_faces[k].begin(), bridged.bridge_faces[k].end());
+  }
+  drop_faces(patched.mesh, useless);
+  for (std::size_t i = 0; i < plan.loops.size(); ++i) {
+    const Hole& around = plan.holes[plan.around[i]];
+    if (plan.around[i] == i || !plan.holes[i].why.empty()) continue;
+    plan.holes[i].action = around.action;
+    plan.holes[i].why =
+        around.filled() ? "inside another hole; filled with it" : "inside a hole that stays open";
+  }
+  return patched;
 }
 
 void check(const TriangleMesh& mesh, double spacing) {
@@ -85,34 +166,36 @@ void check(const TriangleMesh& mesh, double spacing) {
 
 }  // namespace
 
+std::string to_string(HoleAction action) {
+  switch (action) {
+    case HoleAction::fair:
+      return "fair";
+    case HoleAction::plain:
+      return "plain";
+    case HoleAction::flat:
+      return "flat";
+    case HoleAction::leave:
+      break;
+  }
+  return "leave";
+}
+
 FillResult fill_holes(const TriangleMesh& mesh, double spacing, const FillOptions& options,
-                      const Progress& progress) {
+                      const PlacedScans& seen_by, const Progress& progress) {
   check(mesh, spacing);
   FillResult result;
   progress.update(0.0, "repairing the mesh");
-  const TriangleMesh open = repaired(mesh, options, result);
+  const TriangleMesh open = smoothed(repaired(mesh, options, result), options.smooth_rounds);
 
-  const std::vector<SimpleLoop> loops = simple_border_loops(open);
-  const std::vector<double> piece_area = piece_areas(open);
-  std::vector<std::vector<std::uint32_t>> chosen;
-  std::vector<std::size_t> chosen_holes;
-  for (const SimpleLoop& loop : loops) {
-    Hole hole = measured(open, loop);
-    hole.why = why_left(hole, loop, piece_area[loop.vertices[0]], spacing, options);
-    if (hole.why.empty()) {
-      chosen.push_back(loop.vertices);
-      chosen_holes.push_back(result.holes.size());
-    }
-    result.holes.push_back(std::move(hole));
-  }
-  Patched patched = with_patches(open, chosen, PatchStyle::smooth, progress.part(0.1, 0.8));
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    Hole& hole = result.holes[chosen_holes[i]];
-    hole.filled = patched.holes[i].faces > 0;
-    hole.faces_added = patched.holes[i].faces;
-    hole.why = hole.filled ? "shorter than max_hole_size_spacings; " + patched.holes[i].how
-                           : "the faces round it are inconsistent: a boundary edge has not exactly one face";
-  }
+  Plan plan = planned(open, spacing, options);
+  const bool any =
+      std::any_of(plan.holes.begin(), plan.holes.end(), [](const Hole& h) { return h.why.empty(); });
+  progress.update(0.05, "reading what the scanners saw");
+  const SeenSpace seen(any && options.keep_seen_space_open ? seen_by : PlacedScans{}, spacing);
+  const SpaceToKeep keep{seen, spacing};
+  Patched patched = carried_out(open, plan, options.max_hole_size_spacings * spacing,
+                                seen.empty() ? nullptr : &keep, progress.part(0.1, 0.8));
+  result.holes = std::move(plan.holes);
   result.self_intersections = patched.crossings;
   result.mesh = std::move(patched.mesh);
   if (options.repair) {
@@ -121,9 +204,8 @@ FillResult fill_holes(const TriangleMesh& mesh, double spacing, const FillOption
     result.mesh = std::move(parted.mesh);
   }
   progress.update(0.9, "simplifying");
-  result.simplified = options.simplify_triangles == 0
-                          ? result.mesh
-                          : simplified(result.mesh, static_cast<std::size_t>(options.simplify_triangles));
+  result.simplified = simplified(result.mesh, {static_cast<std::size_t>(options.simplify_triangles),
+                                               options.simplify_error_spacings * spacing});
   progress.update(1.0);
   return result;
 }

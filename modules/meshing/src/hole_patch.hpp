@@ -39,6 +39,13 @@ enum class Smoothness { faired, refined, plain };
 using Chords = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 [[nodiscard]] Chords taken_chords(const HoleRegion& region);
 
+/// The loop seen along its mean normal, counter-clockwise.
+[[nodiscard]] std::vector<Eigen::Vector2d> flattened(const std::vector<Eigen::Vector3d>& loop);
+
+/// A constrained Delaunay triangulation in the loop's mean plane (CGAL); nothing where the loop crosses
+/// itself there.
+[[nodiscard]] std::optional<Patch> planar_patch(const std::vector<Eigen::Vector3d>& loop);
+
 /// Ear clipping in the loop's mean plane, sharpest ear first, without `taken` chords; nothing where no ear is
 /// left to clip.
 [[nodiscard]] std::optional<Patch> clipped_patch(const std::vector<Eigen::Vector3d>& loop,

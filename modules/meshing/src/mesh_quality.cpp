@@ -15,6 +15,7 @@ MeshQuality mesh_quality(const TriangleMesh& mesh) {
   quality.faces = mesh.faces.size();
   quality.components = topology.components;
   quality.boundary_loops = topology.boundary_loops;
+  quality.borders = topology.borders;
   quality.boundary_edges = topology.boundary_edges;
   quality.non_manifold_edges = topology.non_manifold_edges;
   quality.non_manifold_vertices = non_manifold_vertex_count(mesh);

@@ -23,55 +23,92 @@ constexpr std::size_t full_density_edges = 400;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
+// A patch may stand this much of its area in space that was seen through: registration errs at edges.
+constexpr double most_seen_through = 0.1;
+
+// From the best kind of patch to the least.
+enum class Kind { capped, faired, refined, plain };
+
 // A hole and its patch.
 struct Work {
   std::vector<std::uint32_t> loop;
   HoleRegion region;
   Patch patch;
-  Smoothness smoothness = Smoothness::faired;
+  Kind kind = Kind::faired;
+  HoleAction action = HoleAction::leave;
   std::string how;
   std::size_t crossings = 0;  // pairs of faces
 };
 
-std::string in_words(Smoothness smoothness, double density) {
-  std::string words = smoothness == Smoothness::faired    ? "refined and faired"
-                      : smoothness == Smoothness::refined ? "refined, not faired"
-                                                          : "triangulated without new vertices";
-  if (density < 1 && smoothness != Smoothness::plain)
+std::string in_words(Kind kind, double density) {
+  if (kind == Kind::capped) return "capped by a plane";
+  std::string words = kind == Kind::faired    ? "refined and faired"
+                      : kind == Kind::refined ? "refined, not faired"
+                                              : "triangulated without new vertices";
+  if (density < 1 && kind != Kind::plain)
     words += fmt::format(", {:.1f} times coarser than the mesh to bound the cost", 1 / density);
   return words;
 }
 
-// Tries what is smoothest first, from work.smoothness on; a fan at the end always succeeds.
-void make_patch(Work& work) {
+std::vector<Eigen::Vector3d> loop_points(const HoleRegion& region) {
+  return {region.points.begin(), region.points.begin() + static_cast<std::ptrdiff_t>(region.loop)};
+}
+
+bool stands_in_seen_space(const Work& work, const Patch& patch, const SpaceToKeep* keep) {
+  if (keep == nullptr) return false;
+  std::vector<Eigen::Vector3d> points = loop_points(work.region);
+  points.insert(points.end(), patch.vertices.begin(), patch.vertices.end());
+  return seen_through_share(keep->seen, points, patch.faces, keep->spacing) > most_seen_through;
+}
+
+std::optional<Patch> patch_of_kind(const HoleRegion& region, Kind kind, double density) {
+  if (kind == Kind::capped) return planar_patch(loop_points(region));
+  const Smoothness smoothness = kind == Kind::faired    ? Smoothness::faired
+                                : kind == Kind::refined ? Smoothness::refined
+                                                        : Smoothness::plain;
+  return triangulated_patch(region, smoothness, density);
+}
+
+// Tries the best kind first, from work.kind on; a fan at the end always succeeds, unless it is the place that
+// is wrong. A cap that fails is not replaced by a bulge.
+void make_patch(Work& work, const SpaceToKeep* keep) {
   const Chords taken = taken_chords(work.region);
   const double density =
       std::min(1.0, static_cast<double>(full_density_edges) / static_cast<double>(work.region.loop));
-  for (const Smoothness smoothness : {Smoothness::faired, Smoothness::refined, Smoothness::plain}) {
-    if (smoothness < work.smoothness) continue;
-    std::optional<Patch> patch = triangulated_patch(work.region, smoothness, density);
-    if (!patch || !closes_hole(*patch, work.region.loop, taken)) continue;
+  bool in_seen_space = false;
+  const auto accepted = [&](std::optional<Patch> patch, HoleAction action, std::string how) {
+    if (!patch || !closes_hole(*patch, work.region.loop, taken)) return false;
+    if (stands_in_seen_space(work, *patch, keep)) {
+      in_seen_space = true;
+      return false;
+    }
+    if (in_seen_space) how += ": a smoother patch would stand in space that a scanner looked through";
     work.patch = std::move(*patch);
-    work.smoothness = smoothness;
-    work.how = in_words(smoothness, density);
-    return;
+    work.action = action;
+    work.how = std::move(how);
+    return true;
+  };
+  const bool cap = work.kind == Kind::capped;
+  for (const Kind kind : {Kind::capped, Kind::faired, Kind::refined, Kind::plain}) {
+    if (kind < work.kind || (cap && (kind == Kind::faired || kind == Kind::refined))) continue;
+    const HoleAction action = kind == Kind::capped   ? HoleAction::flat
+                              : kind == Kind::faired ? HoleAction::fair
+                                                     : HoleAction::plain;
+    work.kind = kind;
+    if (accepted(patch_of_kind(work.region, kind, density), action, in_words(kind, density))) return;
   }
-  work.smoothness = Smoothness::plain;
-  const std::vector<Eigen::Vector3d> loop(
-      work.region.points.begin(), work.region.points.begin() + static_cast<std::ptrdiff_t>(work.region.loop));
-  if (std::optional<Patch> patch = clipped_patch(loop, taken);
-      patch && closes_hole(*patch, loop.size(), taken)) {
-    work.patch = std::move(*patch);
-    work.how = "ears clipped: no smoother patch was found";
+  const std::vector<Eigen::Vector3d> loop = loop_points(work.region);
+  if (accepted(clipped_patch(loop, taken), HoleAction::plain, "ears clipped: no smoother patch was found"))
     return;
-  }
-  work.patch = fan_patch(loop);
-  work.how = "a fan: no other patch was found";
+  if (accepted(fan_patch(loop), HoleAction::plain, "a fan: no other patch was found")) return;
+  work.patch = {};
+  work.action = HoleAction::leave;
+  work.how = "every patch would stand in space that a scanner looked through";
 }
 
-void make_patches(std::vector<Work*> works) {
+void make_patches(std::vector<Work*> works, const SpaceToKeep* keep) {
   parallel_for(works.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) make_patch(*works[i]);
+    for (std::size_t i = begin; i < end; ++i) make_patch(*works[i], keep);
   });
 }
 
@@ -89,7 +126,8 @@ void part_chords(std::vector<Work>& works) {
         own.push_back(std::minmax(work.loop[a], work.loop[b]));
       }
     if (std::any_of(own.begin(), own.end(), [&](const Edge& e) { return chords.count(e) != 0; })) {
-      work.patch = fan_patch({work.region.points.begin(), work.region.points.begin() + size});
+      work.patch = fan_patch(loop_points(work.region));
+      work.action = HoleAction::plain;
       work.how = "a fan: another hole's patch has the same edges";
       continue;
     }
@@ -161,24 +199,25 @@ std::vector<std::size_t> crossings_of(const TriangleMesh& patched, std::size_t f
 }
 
 // Where a patch crosses the surface, the next less smooth one is tried; the one that crosses least stays.
-TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& works) {
+TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& works,
+                                  const SpaceToKeep* keep) {
   TriangleMesh result = assembled(mesh, works);
   std::vector<std::size_t> crossings = crossings_of(result, mesh.faces.size(), works);
   for (std::size_t i = 0; i < works.size(); ++i) works[i].crossings = crossings[i];
-  for (const Smoothness smoothness : {Smoothness::refined, Smoothness::plain}) {
+  for (const Kind kind : {Kind::refined, Kind::plain}) {
     std::vector<Work> tries = works;
     std::vector<Work*> changed;
     for (Work& work : tries)
-      if (work.crossings > 0 && work.smoothness < smoothness) {
-        work.smoothness = smoothness;
+      if (work.crossings > 0 && work.kind < kind) {
+        work.kind = kind;
         changed.push_back(&work);
       }
     if (changed.empty()) continue;
-    make_patches(changed);
+    make_patches(changed, keep);
     part_chords(tries);
     crossings = crossings_of(assembled(mesh, tries), mesh.faces.size(), tries);
     for (std::size_t i = 0; i < works.size(); ++i) {
-      if (crossings[i] >= works[i].crossings) continue;
+      if (crossings[i] >= works[i].crossings || tries[i].patch.faces.empty()) continue;
       works[i] = tries[i];
       works[i].crossings = crossings[i];
       works[i].how += ": a smoother patch would cut the surface";
@@ -191,32 +230,38 @@ TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& w
 
 }  // namespace
 
-Patched with_patches(const TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& loops,
-                     PatchStyle style, const Progress& progress) {
-  const Smoothness smoothness = style == PatchStyle::smooth ? Smoothness::faired : Smoothness::plain;
+Patched with_patches(const TriangleMesh& mesh, const std::vector<LoopToFill>& loops, const SpaceToKeep* keep,
+                     const Progress& progress) {
   Patched result;
   result.holes.resize(loops.size());
   const VertexFaces around(mesh);
   std::vector<Work> works;
   std::vector<std::size_t> hole_of;
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    if (std::optional<HoleRegion> region = hole_region(mesh, around, loops[i])) {
-      works.push_back({loops[i], std::move(*region), {}, smoothness, {}, 0});
-      hole_of.push_back(i);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    std::optional<HoleRegion> region = hole_region(mesh, around, loops[i].loop);
+    if (!region) {
+      result.holes[i].how = "the faces round it are inconsistent: a boundary edge has not exactly one face";
+      continue;
     }
+    const Kind kind = loops[i].style == PatchStyle::smooth ? Kind::faired
+                      : loops[i].style == PatchStyle::flat ? Kind::capped
+                                                           : Kind::plain;
+    works.push_back({loops[i].loop, std::move(*region), {}, kind, HoleAction::leave, {}, 0});
+    hole_of.push_back(i);
+  }
   constexpr std::size_t holes_per_step = 64;
   for (std::size_t begin = 0; begin < works.size(); begin += holes_per_step) {
     progress.update(0.8 * static_cast<double>(begin) / static_cast<double>(works.size()), "filling holes");
     std::vector<Work*> step;
     for (std::size_t i = begin; i < std::min(works.size(), begin + holes_per_step); ++i)
       step.push_back(&works[i]);
-    make_patches(step);
+    make_patches(step, keep);
   }
   progress.update(0.8, "looking for self-intersections");
   part_chords(works);
-  result.mesh = with_least_crossings(mesh, works);
+  result.mesh = with_least_crossings(mesh, works, keep);
   for (std::size_t i = 0; i < works.size(); ++i) {
-    result.holes[hole_of[i]] = {works[i].how, works[i].patch.faces.size()};
+    result.holes[hole_of[i]] = {works[i].action, works[i].how, works[i].patch.faces.size()};
     result.crossings += works[i].crossings;
   }
   return result;

@@ -19,20 +19,6 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The loop in its mean plane, counter-clockwise.
-std::vector<Eigen::Vector2d> flattened(const std::vector<Eigen::Vector3d>& loop) {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    normal += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
-  if (normal.stableNorm() == 0) normal = Eigen::Vector3d::UnitZ();
-  normal.stableNormalize();
-  const Eigen::Vector3d x = normal.unitOrthogonal();
-  const Eigen::Vector3d y = normal.cross(x);
-  std::vector<Eigen::Vector2d> flat;
-  for (const Eigen::Vector3d& p : loop) flat.emplace_back(x.dot(p - loop[0]), y.dot(p - loop[0]));
-  return flat;
-}
-
 // The corners that are not clipped yet.
 class Ring {
  public:
@@ -75,6 +61,19 @@ double ear_angle(const std::vector<Eigen::Vector2d>& flat, const Ring& ring, std
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector2d> flattened(const std::vector<Eigen::Vector3d>& loop) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    normal += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
+  if (normal.stableNorm() == 0) normal = Eigen::Vector3d::UnitZ();
+  normal.stableNormalize();
+  const Eigen::Vector3d x = normal.unitOrthogonal();
+  const Eigen::Vector3d y = normal.cross(x);
+  std::vector<Eigen::Vector2d> flat;
+  for (const Eigen::Vector3d& p : loop) flat.emplace_back(x.dot(p - loop[0]), y.dot(p - loop[0]));
+  return flat;
+}
 
 Chords taken_chords(const HoleRegion& region) {
   Chords taken;

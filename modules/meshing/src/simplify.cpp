@@ -43,16 +43,24 @@ std::vector<std::uint8_t> filled_as_nearest(const TriangleMesh& mesh, const Tria
 
 }  // namespace
 
-TriangleMesh simplified(const TriangleMesh& mesh, std::size_t triangles) {
-  if (mesh.faces.size() <= triangles || mesh.empty()) return mesh;
+TriangleMesh simplified(const TriangleMesh& mesh, const SimplifyLimits& limits) {
+  const bool unlimited = limits.triangles == 0 && limits.error == 0;
+  if (unlimited || mesh.faces.size() <= limits.triangles || mesh.empty()) return mesh;
   const std::vector<float> positions = centered_positions(mesh);
   std::vector<unsigned int> indices;
   indices.reserve(3 * mesh.faces.size());
   for (const Face& f : mesh.faces) indices.insert(indices.end(), f.begin(), f.end());
   std::vector<unsigned int> left(indices.size());
   constexpr float any_error = 1.0F;  // relative to the extent of the mesh
+  // A quadric holds the mean square distance to the planes of many faces: the farthest place was 2.4 times
+  // off that on a torus.
+  constexpr double farthest = 2.5;
+  const double extent = bounding_box(mesh.vertices).sizes().maxCoeff();
+  const float error = limits.error > 0 && extent > 0
+                          ? static_cast<float>(std::min(1.0, limits.error / farthest / extent))
+                          : any_error;
   left.resize(meshopt_simplify(left.data(), indices.data(), indices.size(), positions.data(),
-                               mesh.vertices.size(), 3 * sizeof(float), 3 * triangles, any_error, 0,
+                               mesh.vertices.size(), 3 * sizeof(float), 3 * limits.triangles, error, 0,
                                nullptr));
   TriangleMesh result = mesh;
   result.faces.clear();

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "boundary.hpp"
 #include "cleaning.hpp"
+#include "drape/geometry/mesh_topology.hpp"
 #include "patching.hpp"
 #include "vertex_fans.hpp"
 
@@ -54,17 +54,17 @@ TriangleMesh without_marked(const TriangleMesh& mesh, const std::vector<std::uin
 }
 
 // The borders that run along nothing but vertices of the cut-out faces.
-std::vector<std::vector<std::uint32_t>> cut_loops(const TriangleMesh& mesh, const TriangleMesh& cut,
-                                                  const std::vector<std::uint8_t>& marked) {
+std::vector<LoopToFill> cut_loops(const TriangleMesh& mesh, const TriangleMesh& cut,
+                                  const std::vector<std::uint8_t>& marked) {
   std::vector<std::uint8_t> touched(mesh.vertices.size(), 0);
   for (std::size_t i = 0; i < mesh.faces.size(); ++i)
     if (marked[i] != 0)
       for (const std::uint32_t v : mesh.faces[i]) touched[v] = 1;
-  std::vector<std::vector<std::uint32_t>> loops;
-  for (SimpleLoop& loop : simple_border_loops(cut))
+  std::vector<LoopToFill> loops;
+  for (BoundaryLoop& loop : boundary_loops(cut))
     if (loop.closed && std::all_of(loop.vertices.begin(), loop.vertices.end(),
                                    [&](std::uint32_t v) { return touched[v] != 0; }))
-      loops.push_back(std::move(loop.vertices));
+      loops.push_back({std::move(loop.vertices), PatchStyle::plain});
   return loops;
 }
 
@@ -79,9 +79,8 @@ TriangleMesh with_spots_mended(const TriangleMesh& mesh) {
     if (std::find(wrong.begin(), wrong.end(), 1) == wrong.end()) break;
     const TriangleMesh cut = without_marked(mended, wrong);
     // The last cuts stay open: better a hole than a wrong edge.
-    mended = round + 1 == rounds
-                 ? cut
-                 : with_patches(cut, cut_loops(mended, cut, wrong), PatchStyle::plain, Progress()).mesh;
+    mended = round + 1 == rounds ? cut
+                                 : with_patches(cut, cut_loops(mended, cut, wrong), nullptr, Progress()).mesh;
   }
   return without_unused_vertices(with_parted_fans(mended).mesh);
 }

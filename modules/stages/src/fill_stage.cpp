@@ -39,8 +39,10 @@ io::HoleRecord to_record(const meshing::Hole& hole, double spacing_m) {
   record.boundary_edges = hole.boundary_edges;
   record.length_m = hole.length;
   record.length_spacings = hole.length / spacing_m;
+  record.area_m2 = hole.area;
+  record.flatness_m = hole.flatness;
   record.center = hole.center;
-  record.filled = hole.filled;
+  record.action = meshing::to_string(hole.action);
   record.why = hole.why;
   record.faces_added = hole.faces_added;
   return record;
@@ -48,8 +50,10 @@ io::HoleRecord to_record(const meshing::Hole& hole, double spacing_m) {
 
 void run(const meshing::FillOptions& options, pipeline::StageRun& run) {
   const MeshInFrame input = run.input().mesh.empty() ? scanned_mesh(run) : given_mesh(run);
-  const meshing::FillResult result =
-      meshing::fill_holes(input.mesh, input.spacing_m, options, run.progress());
+  // A mesh that was given comes without scans.
+  const PosedScans posed = run.input().mesh.empty() ? placed_scans(run) : PosedScans{};
+  const meshing::FillResult result = meshing::fill_holes(
+      input.mesh, input.spacing_m, options, {posed.scans, posed.world_from_scan}, run.progress());
   io::write_mesh_ply(run.output("mesh.ply"), result.mesh);
   io::write_mesh_ply(run.output("mesh_simplified.ply"), result.simplified);
   io::HolesRecord record{input.frame, input.spacing_m, {}};
@@ -57,8 +61,8 @@ void run(const meshing::FillOptions& options, pipeline::StageRun& run) {
   io::write_holes(run.output("holes.json"), record);
   run.metric("holes", static_cast<double>(record.holes.size()));
   run.metric("holes_filled",
-             static_cast<double>(std::count_if(record.holes.begin(), record.holes.end(),
-                                               [](const io::HoleRecord& h) { return h.filled; })));
+             static_cast<double>(std::count_if(result.holes.begin(), result.holes.end(),
+                                               [](const meshing::Hole& h) { return h.filled(); })));
   run.metric("faces", static_cast<double>(result.mesh.faces.size()));
   run.metric("faces_simplified", static_cast<double>(result.simplified.faces.size()));
   run.metric("self_intersections_added", static_cast<double>(result.self_intersections));
@@ -73,7 +77,9 @@ pipeline::Stage fill_stage() {
   stage.summary =
       "Repairs the mesh, closes holes under a stated limit, and makes a simplified copy for texturing.";
   stage.input_parts = {"mesh", "units"};
-  stage.reads = {{"mesh", "mesh.ply"}, {"ingest", "scans.json"}};
+  stage.version = 2;
+  stage.reads = {
+      {"mesh", "mesh.ply"}, {"ingest", "scans.json"}, {"ingest", "scans/*.ply"}, {"register", "poses.json"}};
   stage.writes = {"mesh.ply", "mesh_simplified.ply", "holes.json"};
   stage.applies = [](const pipeline::Input&) { return true; };
   stage.instantiate = pipeline::stage_body(run);

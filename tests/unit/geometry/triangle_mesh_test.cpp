@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/mesh_topology.hpp"
@@ -41,23 +43,51 @@ TEST(MeshTopology, GenusComponentsAndBorders) {
   EXPECT_EQ(topology.boundary_loops, 1U);
   const auto loops = boundary_loops(open);
   ASSERT_EQ(loops.size(), 1U);
-  ASSERT_EQ(loops[0].size(), 4U);
+  ASSERT_EQ(loops[0].vertices.size(), 4U);
   // The loop runs against its faces, so a fan over it closes the box with the orientation of the rest.
   TriangleMesh closed = open;
-  for (std::size_t i = 1; i + 1 < loops[0].size(); ++i)
-    closed.faces.push_back({loops[0][0], loops[0][i], loops[0][i + 1]});
+  const auto& loop = loops[0].vertices;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) closed.faces.push_back({loop[0], loop[i], loop[i + 1]});
   EXPECT_TRUE(mesh_topology(closed).closed_manifold());
   EXPECT_NEAR(signed_volume(closed), 1.0, 1e-12);
 }
 
-TEST(MeshTopology, PinchedBorderGivesALoopPerPass) {
+TEST(MeshTopology, APinchedBorderIsSplitIntoSimpleLoops) {
+  // Three triangles in a ring, each touching the next in a vertex: one border, and the loops of a walk along
+  // it depend on where it starts unless they are split wherever a vertex comes up again.
+  TriangleMesh ring;
+  ring.vertices = {{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, -1, 0}, {2.5, 1.5, 0}, {-0.5, 1.5, 0}};
+  ring.faces = {{0, 3, 1}, {1, 4, 2}, {2, 5, 0}};
+  for (int turn = 0; turn < 3; ++turn) {
+    std::rotate(ring.faces.begin(), ring.faces.begin() + 1, ring.faces.end());
+    std::size_t steps = 0;
+    for (const BoundaryLoop& loop : boundary_loops(ring)) {
+      EXPECT_TRUE(loop.closed);
+      steps += loop.vertices.size();
+      const std::set<std::uint32_t> distinct(loop.vertices.begin(), loop.vertices.end());
+      EXPECT_EQ(distinct.size(), loop.vertices.size());
+    }
+    EXPECT_EQ(steps, 9U);
+    EXPECT_EQ(mesh_topology(ring).borders, 1U);
+  }
   TriangleMesh bow_tie;
   bow_tie.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
   bow_tie.faces = {{0, 1, 2}, {0, 3, 4}};
-  std::size_t steps = 0;
-  for (const auto& loop : boundary_loops(bow_tie)) steps += loop.size();
-  EXPECT_EQ(steps, 6U);
+  EXPECT_EQ(mesh_topology(bow_tie).boundary_loops, 2U);
+  EXPECT_EQ(mesh_topology(bow_tie).borders, 1U);
   EXPECT_EQ(mesh_topology(bow_tie).components, 2U);
+}
+
+TEST(MeshTopology, ABorderAlongInconsistentFacesIsNoClosedLoop) {
+  TriangleMesh open = test::box({0, 0, 0}, {1, 1, 1});
+  open.faces.erase(open.faces.begin());
+  for (Face& f : open.faces)
+    if (std::count(f.begin(), f.end(), open.faces[0][0]) != 0) {
+      std::swap(f[1], f[2]);
+      break;
+    }
+  const auto loops = boundary_loops(open);
+  EXPECT_TRUE(std::any_of(loops.begin(), loops.end(), [](const BoundaryLoop& l) { return !l.closed; }));
 }
 
 TEST(MeshTopology, CountsWrongEdges) {

@@ -203,13 +203,13 @@ TEST(MeshFiles, AVertexThatIsNotFiniteGoesIfNoFaceUsesIt) {
 TEST(MeshFiles, RealMeshes) {
   struct Real {
     std::string name;
-    std::size_t vertices, faces,
-        loops;  // 0: holes touch each other, so that their number is a matter of taste
+    std::size_t vertices, faces, loops, borders;
   };
   for (const Real& real :
-       {Real{"meshes/bun_zipper.ply", 35947, 69451, 5}, Real{"meshes/Laurana50k.ply", 27861, 49954, 4},
-        Real{"meshes/many_small_holes.ply", 2004, 3524, 0}, Real{"meshes/teapot.obj", 3644, 6320, 0},
-        Real{"photos/lmo/can.ply", 22831, 45666, 0}, Real{"meshes/conrod.stl", 0, 6442, 0}}) {
+       {Real{"meshes/bun_zipper.ply", 35947, 69451, 5, 5}, Real{"meshes/Laurana50k.ply", 27861, 49954, 4, 4},
+        Real{"meshes/many_small_holes.ply", 2004, 3524, 38, 32},
+        Real{"meshes/teapot.obj", 3644, 6320, 48, 10}, Real{"photos/lmo/can.ply", 22831, 45666, 0, 0},
+        Real{"meshes/conrod.stl", 0, 6442, 0, 0}}) {
     if (!test::have_data(real.name)) GTEST_SKIP() << "needs " << real.name << " of DRAPE_TEST_DATA";
     const TriangleMesh mesh = io::read_mesh(test::data(real.name));
     if (real.vertices > 0) {
@@ -219,6 +219,7 @@ TEST(MeshFiles, RealMeshes) {
     EXPECT_EQ(problem_of(mesh), "") << real.name;
     if (real.loops > 0) {
       EXPECT_EQ(mesh_topology(mesh).boundary_loops, real.loops) << real.name;
+      EXPECT_EQ(mesh_topology(mesh).borders, real.borders) << real.name;
     }
   }
 }

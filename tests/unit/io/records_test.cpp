@@ -78,8 +78,8 @@ TEST(Records, HolesReadBack) {
   io::HolesRecord record;
   record.frame = frame;
   record.spacing_m = 5e-4;
-  record.holes.push_back({12, 0.1, 33.3, {1, 2, 3}, true, "short", 10});
-  record.holes.push_back({99, 5, 1e4, {0, 0, 0}, false, "outer border", 0});
+  record.holes.push_back({12, 0.1, 33.3, 2.5, 0.02, {1, 2, 3}, "fair", "short", 10});
+  record.holes.push_back({99, 5, 1e4, 7, 0.5, {0, 0, 0}, "leave", "outer border", 0});
   io::write_holes(folder / "holes.json", record);
   const io::HolesRecord back = io::read_holes(folder / "holes.json");
   EXPECT_EQ(back.spacing_m, 5e-4);
@@ -88,7 +88,9 @@ TEST(Records, HolesReadBack) {
   EXPECT_EQ(back.holes[0].length_m, 0.1);
   EXPECT_EQ(back.holes[0].length_spacings, 33.3);
   EXPECT_EQ(back.holes[0].center, Eigen::Vector3d(1, 2, 3));
-  EXPECT_TRUE(back.holes[0].filled);
+  EXPECT_EQ(back.holes[0].area_m2, 2.5);
+  EXPECT_EQ(back.holes[0].flatness_m, 0.02);
+  EXPECT_EQ(back.holes[0].action, "fair");
   EXPECT_EQ(back.holes[0].faces_added, 10U);
   EXPECT_EQ(back.holes[1].why, "outer border");
 }

@@ -88,7 +88,7 @@ TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
   EXPECT_EQ(quality.degenerate_faces, 0U);
   // The border is on the outside of the 3 x 3 x 3 blocks only.
   for (const auto& loop : boundary_loops(mesh))
-    for (const std::uint32_t v : loop) {
+    for (const std::uint32_t v : loop.vertices) {
       const Vector3d& p = mesh.vertices[v];
       EXPECT_TRUE((p.array() == 8).any() || (p.array() == 31).any()) << p.transpose();
     }

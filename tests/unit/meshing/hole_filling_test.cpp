@@ -37,7 +37,7 @@ TEST(HoleFilling, ASphereGetsItsCapBack) {
   expect_untouched(open, result.mesh);
   ASSERT_EQ(result.holes.size(), 1U);
   const Hole& hole = result.holes[0];
-  EXPECT_TRUE(hole.filled);
+  EXPECT_TRUE(hole.filled());
   EXPECT_EQ(hole.boundary_edges, 80U);
   EXPECT_EQ(hole.faces_added, result.mesh.faces.size() - open.faces.size());
   EXPECT_NEAR(hole.length, 2 * pi * std::sqrt(100 - hole.center.z() * hole.center.z()), 0.1);
@@ -61,11 +61,11 @@ TEST(HoleFilling, TheLimitIsRespected) {
   const FillResult result = fill(open, options);
   ASSERT_EQ(result.holes.size(), 2U);
   for (const Hole& hole : result.holes) {
-    EXPECT_EQ(hole.filled, hole.length < options.max_hole_size_spacings * spacing);
-    EXPECT_NE(hole.why.find(hole.filled ? "shorter than max_hole_size_spacings" : "not shorter than"),
+    EXPECT_EQ(hole.filled(), hole.length < options.max_hole_size_spacings * spacing);
+    EXPECT_NE(hole.why.find(hole.filled() ? "shorter than max_hole_size_spacings" : "not shorter than"),
               std::string::npos);
   }
-  EXPECT_NE(result.holes[0].filled, result.holes[1].filled);
+  EXPECT_NE(result.holes[0].filled(), result.holes[1].filled());
   EXPECT_EQ(mesh_topology(result.mesh).boundary_loops, 1U);
   options.max_hole_size_spacings = 0;
   EXPECT_EQ(fill(open, options).mesh.faces, open.faces);
@@ -84,8 +84,8 @@ TEST(HoleFilling, TheRimOfASheetStaysOpen) {
   FillResult result = fill(sheet);
   ASSERT_EQ(result.holes.size(), 2U);
   EXPECT_EQ(result.holes[0].why, "outer border of an open sheet");
-  EXPECT_FALSE(result.holes[0].filled);
-  EXPECT_TRUE(result.holes[1].filled);
+  EXPECT_FALSE(result.holes[0].filled());
+  EXPECT_TRUE(result.holes[1].filled());
   FillOptions options;
   options.keep_outer_border = false;
   result = fill(sheet, options);
@@ -118,7 +118,7 @@ TEST(HoleFilling, ABorderThatTouchesItselfIsFilledAsTwo) {
   const FillResult result = fill(open);
   expect_untouched(open, result.mesh);
   ASSERT_EQ(result.holes.size(), 2U);
-  for (const Hole& hole : result.holes) EXPECT_TRUE(hole.filled);
+  for (const Hole& hole : result.holes) EXPECT_TRUE(hole.filled());
   EXPECT_EQ(result.mesh.vertices.size(), mesh.vertices.size());
   EXPECT_EQ(result.mesh.faces.size(), mesh.faces.size());
   EXPECT_TRUE(mesh_quality(result.mesh).closed());

@@ -41,7 +41,7 @@ TEST_P(RealMeshes, EveryHoleIsFilledAndNothingElseMoves) {
   ASSERT_EQ(result.holes.size(), GetParam().loops);
   std::size_t open = 0;
   for (const Hole& hole : result.holes)
-    if (!hole.filled) {
+    if (!hole.filled()) {
       ++open;
       EXPECT_EQ(hole.why, "outer border of an open sheet");
     } else {
@@ -67,7 +67,7 @@ TEST(RealTeapot, LoopsAreJoinedOrFilled) {
   const TriangleMesh mesh = io::read_mesh(test::data("meshes/teapot.obj"));
   FillOptions options;
   for (const Hole& hole : fill_holes(mesh, median_edge_length(mesh), options).holes)
-    EXPECT_TRUE(hole.filled || hole.why == "outer border of an open sheet") << hole.why;
+    EXPECT_TRUE(hole.filled() || hole.why == "outer border of an open sheet") << hole.why;
   options.keep_outer_border = false;
   const FillResult result = fill_holes(mesh, median_edge_length(mesh), options);
   // Borders with the same coordinates are joined first: those loops are gone before there is a hole to fill.

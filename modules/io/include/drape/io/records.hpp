@@ -85,9 +85,11 @@ struct HoleRecord {
   std::size_t boundary_edges = 0;
   double length_m = 0;         // of the boundary
   double length_spacings = 0;  // the same in point spacings: what the limit is compared with
+  double area_m2 = 0;          // that it spans
+  double flatness_m = 0;       // RMS distance of the boundary from its mean plane
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  bool filled = false;
-  std::string why;  // "shorter than max_hole_size_spacings", "outer border of an open scan", ...
+  std::string action;  // fair, plain, flat, leave
+  std::string why;     // "shorter than max_hole_size_spacings", "outer border of an open scan", ...
   std::size_t faces_added = 0;
 };
 struct HolesRecord {

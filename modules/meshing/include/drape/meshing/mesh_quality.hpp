@@ -15,7 +15,8 @@ struct MeshQuality {
   std::size_t vertices = 0;
   std::size_t faces = 0;
   std::size_t components = 0;
-  std::size_t boundary_loops = 0;
+  std::size_t boundary_loops = 0;  // simple ones
+  std::size_t borders = 0;         // the same with loops that touch counted as one
   std::size_t boundary_edges = 0;
   std::size_t non_manifold_edges = 0;     // with more than two faces
   std::size_t non_manifold_vertices = 0;  // where several fans of faces touch

@@ -7,10 +7,17 @@
 
 namespace drape::meshing {
 
-/// At most `triangles` faces, or as few as can be reached without changing the topology, by quadric edge
-/// collapse (Garland and Heckbert 1997, meshoptimizer). The vertices are some of the mesh's own, with their
-/// bits and attributes; normals are computed anew where the mesh has them; a face is `filled` where the
-/// nearest face of the mesh is. The same mesh if it has no more faces than asked for.
-[[nodiscard]] TriangleMesh simplified(const TriangleMesh& mesh, std::size_t triangles);
+/// Both may hold; without either the mesh stays as it is.
+struct SimplifyLimits {
+  std::size_t triangles = 0;  // no fewer than these are aimed at; 0: any number
+  double error = 0;           // the most that the surface may move, in the mesh's unit; 0: anything
+};
+
+/// At most `triangles` faces, or as few as can be reached within the error and without changing the topology,
+/// by quadric edge collapse (Garland and Heckbert 1997, meshoptimizer; the error is estimated from the
+/// quadrics, on the safe side). The vertices are some of the mesh's own, with their bits and attributes;
+/// normals are computed anew where the mesh has them; a face is `filled` where the nearest face of the mesh
+/// is. The same mesh if it has no more faces than asked for.
+[[nodiscard]] TriangleMesh simplified(const TriangleMesh& mesh, const SimplifyLimits& limits);
 
 }  // namespace drape::meshing
