@@ -82,7 +82,7 @@ struct NewArguments {
 };
 void new_command(const NewArguments& arguments);
 
-/// What is in scan files, photos and files of poses.
+/// What is in scan files, meshes, photos and files of poses.
 struct InfoArguments {
   std::vector<std::filesystem::path> files;
 };

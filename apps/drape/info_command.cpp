@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "commands.hpp"
 #include "drape/base/error.hpp"
@@ -11,6 +12,7 @@
 #include "drape/geometry/kd_tree.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/io/scan_files.hpp"
+#include "mesh_info.hpp"
 
 namespace drape::app {
 namespace {
@@ -106,6 +108,10 @@ void info_command(const InfoArguments& arguments) {
     }
     if (is_photo(file)) {
       print_photo(file);
+      continue;
+    }
+    if (const std::optional<TriangleMesh> mesh = mesh_in(file)) {
+      print_mesh_info(file, *mesh);
       continue;
     }
     const io::ScanFormatFacts format = io::scan_format(file);

@@ -317,7 +317,7 @@ struct CommandLine {
   }
 
   void add_info() {
-    CLI::App* sub = command("info", "Say what is in scan files, photos and files of poses",
+    CLI::App* sub = command("info", "Say what is in scan files, meshes, photos and files of poses",
                             "drape info scans/*.ptx photos/front.jpg");
     sub->add_option("files", info.files, "The files")->required()->type_name("FILES");
     sub->callback([this] {

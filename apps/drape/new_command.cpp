@@ -1,14 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "commands.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
-#include "drape/io/mesh_files.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/io/scan_files.hpp"
 #include "drape/stages/units.hpp"
+#include "mesh_info.hpp"
 
 namespace drape::app {
 namespace fs = std::filesystem;
@@ -28,17 +29,11 @@ struct Look {
 };
 
 Look look_at(const fs::path& file) {
-  const std::string kind = extension(file);
   Look look;
-  if (kind == "obj" || kind == "stl" || kind == "off" || kind == "ply") {
-    try {
-      const TriangleMesh mesh = io::read_mesh(file);
-      look.is_mesh = !mesh.faces.empty();
-      look.box = bounding_box(mesh.vertices);
-    } catch (const Error&) {
-      if (kind != "ply") throw;  // a PLY without faces is a scan
-    }
-    if (look.is_mesh) return look;
+  if (const std::optional<TriangleMesh> mesh = mesh_in(file)) {
+    look.is_mesh = true;
+    look.box = bounding_box(mesh->vertices);
+    return look;
   }
   for (const RangeScan& scan : io::read_scans(file)) look.box.extend(bounding_box(scan.cloud.positions));
   return look;

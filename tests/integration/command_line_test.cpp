@@ -75,6 +75,26 @@ TEST(CommandLine, NewTellsAMeshFromScans) {
   EXPECT_TRUE(contains(valid.out, "stages    fill, export")) << valid.out << valid.err;
 }
 
+TEST(CommandLine, InfoSaysHowSoundAMeshIs) {
+  const ScratchFolder folder;
+  write_file(folder / "open.off",
+             "OFF\n4 3 0\n0 0 0\n100 0 0\n0 100 0\n0 0 100\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
+  const Outcome open = run_drape({"info", "open.off"}, folder.path());
+  EXPECT_EQ(open.exit_code, 0) << open.err;
+  for (const char* words :
+       {"boundary loops           1\n", "boundary edges           3\n", "manifold                 yes",
+        "genus                    0\n", "not closed", "self-intersections       0"})
+    EXPECT_TRUE(contains(open.out, words)) << words << open.out;
+  write_file(folder / "closed.off",
+             "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  EXPECT_TRUE(
+      contains(run_drape({"info", "closed.off"}, folder.path()).out, "volume                   0.166667\n"));
+  write_file(folder / "bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
+  const Outcome bad = run_drape({"info", "bad.off"}, folder.path());
+  EXPECT_EQ(bad.exit_code, 65);
+  EXPECT_TRUE(contains(bad.err, "bad.off")) << bad.err;
+}
+
 TEST(CommandLine, ReferenceIsCurrentAndCheckNoticesIfNot) {
   EXPECT_EQ(run_drape({"reference", source("config/REFERENCE.md").string(), "--check"}).exit_code, 0)
       << "make it again: drape reference config/REFERENCE.md";
