@@ -8,8 +8,8 @@
 
 namespace drape::app {
 
-/// The mesh in a file; nothing if it is a scan: a file of another kind, or a PLY without faces. Error{input} if
-/// it looks like a mesh and cannot be read.
+/// The mesh in a file; nothing if it is a scan: a file of another kind, or a PLY without faces. Error{input}
+/// if it looks like a mesh and cannot be read.
 [[nodiscard]] std::optional<TriangleMesh> mesh_in(const std::filesystem::path& file);
 
 /// One line a figure, to standard output.

@@ -124,22 +124,20 @@ void drop_faces(TriangleMesh& mesh, const std::vector<std::size_t>& faces) {
   }
 }
 
-std::string reason(const Hole& hole, const Patched::Hole& patch, double limit) {
+std::string reason(PatchStyle style, const Patched::Hole& patch) {
   if (patch.action == HoleAction::leave) return patch.how;
-  if (patch.action == HoleAction::flat) return "a flat base; " + patch.how;
-  return (hole.length < limit ? "shorter than max_hole_size_spacings; " : "the longest border; ") + patch.how;
+  return (style == PatchStyle::flat ? "a base; " : "shorter than max_hole_size_spacings; ") + patch.how;
 }
 
 // Fills what the plan says, and writes into its holes what became of them.
-Patched carried_out(const TriangleMesh& mesh, Plan& plan, double limit, const SpaceToKeep* keep,
-                    const Progress& progress) {
+Patched carried_out(const TriangleMesh& mesh, Plan& plan, const SpaceToKeep* keep, const Progress& progress) {
   const Bridged bridged = with_bridges(mesh, plan);
   Patched patched = with_patches(bridged.mesh, bridged.loops, keep, progress);
   std::vector<std::size_t> useless;
   for (std::size_t k = 0; k < bridged.loops.size(); ++k) {
     const std::size_t i = bridged.hole_of[k];
     Hole& hole = plan.holes[i];
-    hole.why = reason(hole, patched.holes[k], limit);
+    hole.why = reason(plan.styles[i], patched.holes[k]);
     hole.action = patched.holes[k].action;
     if (hole.filled())
       hole.faces_added = patched.holes[k].faces + bridged.bridge_faces[k].size();
@@ -193,8 +191,7 @@ FillResult fill_holes(const TriangleMesh& mesh, double spacing, const FillOption
   progress.update(0.05, "reading what the scanners saw");
   const SeenSpace seen(any && options.keep_seen_space_open ? seen_by : PlacedScans{}, spacing);
   const SpaceToKeep keep{seen, spacing};
-  Patched patched = carried_out(open, plan, options.max_hole_size_spacings * spacing,
-                                seen.empty() ? nullptr : &keep, progress.part(0.1, 0.8));
+  Patched patched = carried_out(open, plan, seen.empty() ? nullptr : &keep, progress.part(0.1, 0.8));
   result.holes = std::move(plan.holes);
   result.self_intersections = patched.crossings;
   result.mesh = std::move(patched.mesh);
