@@ -127,14 +127,15 @@ TEST(HoleRules, AnIslandIsJoinedToTheSurfaceRoundIt) {
 
 TEST(HoleRules, TheRimOfASheetRunsRoundItsHolesAndStaysApart) {
   // Seen from above the rim runs the other way round all the holes, in one plane with them.
+  constexpr std::uint32_t side = 13;
   TriangleMesh sheet;
-  for (std::uint32_t y = 0; y < 12; ++y)
-    for (std::uint32_t x = 0; x < 12; ++x) {
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) {
       sheet.vertices.emplace_back(x, y, 0);
-      if (x + 1 == 12 || y + 1 == 12 || (x % 4 == 2 && y % 4 == 2)) continue;
-      const std::uint32_t v = y * 12 + x;
-      sheet.faces.push_back({v, v + 1, v + 12});
-      sheet.faces.push_back({v + 1, v + 13, v + 12});
+      if (x + 1 == side || y + 1 == side || (x % 4 == 2 && y % 4 == 2)) continue;
+      const std::uint32_t v = y * side + x;
+      sheet.faces.push_back({v, v + 1, v + side});
+      sheet.faces.push_back({v + 1, v + side + 1, v + side});
     }
   const FillResult result = fill(sheet);
   ASSERT_EQ(result.holes.size(), 10U);
