@@ -56,7 +56,7 @@ struct Scans {
 
 Scans bunny() {
   Scans all;
-  const auto poses = io::read_stanford_conf(test::data("scans/bunny/bun.conf"));
+  const auto poses = io::read_scan_poses(test::data("scans/bunny/bun.conf"));
   for (const auto& [file, world_from_scan] : poses) {
     all.scans.push_back(io::read_scans(test::data("scans/bunny/" + file)).front());
     all.world_from_scan.push_back(world_from_scan);

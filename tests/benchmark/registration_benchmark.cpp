@@ -55,7 +55,7 @@ pcl::PointCloud<pcl::PointXYZ>::Ptr to_pcl(const PointCloud& cloud) {
 
 void compare() {
   if (!test::have_data("scans/bunny")) return fmt::print("skipped: needs scans/bunny\n");
-  const auto poses = io::read_stanford_conf(test::data("scans/bunny/bun.conf"));
+  const auto poses = io::read_scan_poses(test::data("scans/bunny/bun.conf"));
   const std::vector<RangeScan> scans{io::read_scans(test::data("scans/bunny/bun000.ply"))[0],
                                      io::read_scans(test::data("scans/bunny/bun045.ply"))[0]};
   const Rigid3 truth = poses.at("bun000.ply").inverse() * poses.at("bun045.ply");

@@ -226,7 +226,7 @@ void measure_shape(const Settings& settings, const std::string& file) {
 
 Scans bunny_scans(const std::string& left_out) {
   Scans all;
-  for (const auto& [file, world_from_scan] : io::read_stanford_conf(test::data("scans/bunny/bun.conf")))
+  for (const auto& [file, world_from_scan] : io::read_scan_poses(test::data("scans/bunny/bun.conf")))
     if (file != left_out)
       add_scan(all, io::read_scans(test::data("scans/bunny/" + file)).front(), world_from_scan);
   set_spacing(all);
@@ -240,7 +240,7 @@ void measure_left_out(const Settings& settings, const Scans& whole, const std::s
       meshing::mesh_scans({nine.scans, nine.world_from_scan, nine.cloud, nine.spacing}, settings.mesh).mesh;
   const KdTree samples(nine.cloud.positions);
   std::size_t index = 0;
-  for (const auto& [name, pose] : io::read_stanford_conf(test::data("scans/bunny/bun.conf"))) {
+  for (const auto& [name, pose] : io::read_scan_poses(test::data("scans/bunny/bun.conf"))) {
     if (name == file) break;
     ++index;
   }

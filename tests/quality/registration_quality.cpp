@@ -52,7 +52,7 @@ struct Posed {
 
 Posed bunny() {
   Posed posed;
-  for (const auto& [name, pose] : io::read_stanford_conf(test::data("scans/bunny/bun.conf"))) {
+  for (const auto& [name, pose] : io::read_scan_poses(test::data("scans/bunny/bun.conf"))) {
     posed.scans.push_back(
         ingest::clean_scan(io::read_scans(test::data("scans/bunny/" + name))[0], {}, {}).scan);
     posed.truth.push_back(pose);
