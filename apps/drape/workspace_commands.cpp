@@ -162,7 +162,7 @@ void adopt_command(const AdoptArguments& arguments) {
       faces = 0;
     const TriangleMesh mesh = io::read_mesh(written);
     const fs::path simplified = scratch / "simplified.ply";
-    io::write_mesh_ply(simplified, faces == 0 ? mesh : meshing::simplified(mesh, faces));
+    io::write_mesh_ply(simplified, faces == 0 ? mesh : meshing::simplified(mesh, {faces, 0}));
     take("mesh_simplified.ply", simplified);
   }
   fs::remove_all(scratch);

@@ -81,11 +81,9 @@ struct EmbeddedPhoto {
 [[nodiscard]] bool is_pose_file(const std::filesystem::path& file);
 
 /// Poses of scans by a Stanford .conf, or a MeshLab .aln or .mlp: base name of the scan -> world_from_scan.
-/// Error{input} with file and line, also where a matrix is no rigid motion or a scan comes twice.
-[[nodiscard]] std::map<std::string, Rigid3> read_scan_poses(const std::filesystem::path& file);
-
-/// Poses by a Stanford .conf: base name of the scan -> world_from_scan. The file's quaternion is read so that
-/// p_world = R(q)^T p_scan + t (measured on the bunny: the transpose of the usual matrix).
+/// A .conf's quaternion is read so that p_world = R(q)^T p_scan + t (measured on the bunny: the transpose of
+/// the usual matrix). Error{input} with file and line, also where a matrix is no rigid motion or a scan comes
+/// twice.
 [[nodiscard]] std::map<std::string, Rigid3> read_scan_poses(const std::filesystem::path& file);
 
 /// Binary little-endian PLY with doubles: positions and every attribute that the cloud has; range_grid and
