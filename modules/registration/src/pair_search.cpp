@@ -18,12 +18,13 @@ constexpr std::size_t most_fitted = 20;
 constexpr std::size_t guess_samples = 500;
 constexpr std::size_t fit_samples = 1200;
 
-// Right pairs of real scans lie 0.14 to 0.26 voxels apart and contradict the lines of sight by up to 0.9 %;
-// wrong ones lie 0.34 to 0.48 voxels apart or contradict them by over 2.5 %.
+// Right pairs of real scans lie 0.14 to 0.26 voxels apart and contradict the lines of sight by up to 0.9 %
+// (one by 2.1 %); wrong ones lie 0.31 to 0.48 voxels apart or contradict them by over 2.5 %.
 constexpr double least_overlap = 0.1;
 constexpr double most_rms_voxels = 0.28;
 constexpr double most_contradiction = 0.015;
-// Wrong pairs that nothing else gives away share a round body: 0.02. Scans that are held have 0.03 and more.
+// Wrong pairs that nothing else gives away share a round body: 0.02. Most scans that are held have 0.03 and
+// more.
 constexpr double least_hold = 0.025;
 constexpr double noise_left = 0.6;  // of the noise of single points, in smoothed ones
 
