@@ -6,7 +6,6 @@
 #include <pcl/registration/gicp.h>
 
 #include <algorithm>
-#include <ctime>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -14,14 +13,13 @@
 #include "drape/base/parallel.hpp"
 #include "drape/io/scan_files.hpp"
 #include "drape/registration/register_scans.hpp"
+#include "program_arguments.hpp"
 #include "support.hpp"
 
 namespace drape {
 namespace {
 
-double cpu_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+using test::cpu_seconds;
 
 struct Error {
   double degrees;

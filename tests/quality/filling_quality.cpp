@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <numbers>
 #include <set>
@@ -21,6 +20,7 @@
 #include "drape/meshing/mesh_quality.hpp"
 #include "drape/meshing/simplify.hpp"
 #include "drape/metrics/surface_distance.hpp"
+#include "program_arguments.hpp"
 #include "support.hpp"
 
 namespace drape {
@@ -31,32 +31,16 @@ struct Settings {
   std::filesystem::path save;  // empty: nothing
 };
 
-Settings settings_of(int argc, char** argv) {
+Settings settings_of(test::ProgramArguments& arguments) {
   Settings settings;
   settings.options.simplify_triangles = 0;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
-    bool known = name == "save";
-    if (known) settings.save = value;
-    for (const Option& option : options_of(settings.options)) {
-      if (option.name != name) continue;
-      known = true;
-      const auto parsed = parse_option(option, value);
-      if (std::holds_alternative<std::string>(parsed))
-        throw config_error("{}: {}", word, std::get<std::string>(parsed));
-      option.assign(std::get<OptionValue>(parsed));
-    }
-    if (!known) throw config_error("{}: no such option", word);
-  }
+  settings.save = arguments.text("save").value_or("");
+  arguments.read(settings.options);
+  arguments.finish();
   return settings;
 }
 
-double cpu_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+using test::cpu_seconds;
 
 void every_loop(const std::string& name, const Settings& settings) {
   if (!test::have_data("meshes/" + name)) {
@@ -256,9 +240,9 @@ void simplification() {
 }  // namespace
 }  // namespace drape
 
-int main(int argc, char** argv) {
-  try {
-    const drape::Settings settings = drape::settings_of(argc, argv);
+int main(int count, char** texts) {
+  return drape::test::measuring_main(count, texts, [](drape::test::ProgramArguments& arguments) {
+    const drape::Settings settings = drape::settings_of(arguments);
     for (const char* name : {"bun_zipper.ply", "Laurana50k.ply", "teapot.obj", "many_small_holes.ply"})
       drape::every_loop(name, settings);
     drape::long_loop(settings);
@@ -269,9 +253,5 @@ int main(int argc, char** argv) {
     for (const double radius : {4.0, 8.0, 16.0})
       for (const char* name : {"bun_zipper.ply", "Laurana50k.ply", "rocker-arm.obj"})
         drape::transplanted_holes(name, cutting, 6, radius, 7);
-  } catch (const drape::Error& error) {
-    fmt::print(stderr, "filling_quality: {}\n", error.what());
-    return 1;
-  }
-  return 0;
+  });
 }

@@ -25,6 +25,7 @@
 #include "drape/report/turntable.hpp"
 #include "drape/simulation/range_scanner.hpp"
 #include "pcl_poisson_peer.hpp"
+#include "program_arguments.hpp"
 #include "range_sheet.hpp"
 #include "support.hpp"
 #include "trimming.hpp"
@@ -283,31 +284,30 @@ void measure_bunny(const Settings& settings) {
   for (const char* file : {"bun045.ply", "bun180.ply", "ear_back.ply"}) measure_left_out(settings, all, file);
 }
 
-Settings settings_of(int count, char** arguments) {
+Settings settings_of(test::ProgramArguments& arguments) {
   Settings settings;
-  auto options = options_of(settings.mesh);
-  for (int i = 1; i < count; ++i) {
-    const std::string argument = arguments[i];
-    const std::string name = argument.substr(0, argument.find('='));
-    const std::string value = argument.substr(std::min(argument.size(), name.size() + 1));
-    if (name == "save") settings.save = value;
-    if (name == "shape") settings.shape = value;
-    if (name == "noise") settings.noise_percents = {std::stod(value)};
-    if (name == "real") settings.real = value != "no";
-    if (name == "pcl") settings.pcl = value != "no";
-    for (Option& option : options)
-      if (option.name == name) option.assign(std::get<OptionValue>(parse_option(option, value)));
+  settings.save = arguments.text("save").value_or("");
+  settings.shape = arguments.text("shape").value_or("");
+  if (const std::vector<std::string> noise = arguments.list("noise"); !noise.empty()) {
+    settings.noise_percents.clear();
+    for (const std::string& percent : noise) settings.noise_percents.push_back(std::stod(percent));
   }
+  settings.real = arguments.text("real").value_or("yes") != "no";
+  settings.pcl = arguments.text("pcl").value_or("yes") != "no";
+  arguments.read(settings.mesh);
+  arguments.finish();
   return settings;
 }
 
 }  // namespace
 }  // namespace drape
 
-int main(int count, char** arguments) {
-  const drape::Settings settings = drape::settings_of(count, arguments);
-  drape::print_header();
-  for (const char* file : {"rocker-arm.obj", "Laurana50k.ply", "fandisk.obj", "spot.obj", "bun_zipper.ply"})
-    drape::measure_shape(settings, file);
-  if (settings.real) drape::measure_bunny(settings);
+int main(int count, char** texts) {
+  return drape::test::measuring_main(count, texts, [](drape::test::ProgramArguments& arguments) {
+    const drape::Settings settings = drape::settings_of(arguments);
+    drape::print_header();
+    for (const char* file : {"rocker-arm.obj", "Laurana50k.ply", "fandisk.obj", "spot.obj", "bun_zipper.ply"})
+      drape::measure_shape(settings, file);
+    if (settings.real) drape::measure_bunny(settings);
+  });
 }

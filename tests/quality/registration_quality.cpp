@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <numbers>
 #include <string>
@@ -24,6 +23,7 @@
 #include "drape/registration/register_scans.hpp"
 #include "drape/simulation/objects.hpp"
 #include "drape/simulation/range_scanner.hpp"
+#include "program_arguments.hpp"
 #include "support.hpp"
 
 namespace drape {
@@ -31,9 +31,7 @@ namespace {
 
 using registration::Registration;
 
-double cpu_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+using test::cpu_seconds;
 
 double degrees_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return Eigen::AngleAxisd(a.transpose() * b).angle() * 180 / std::numbers::pi;
@@ -323,29 +321,23 @@ void measure_aliens(bool verbose) {
 }  // namespace drape
 
 int main(int count, char** texts) {
-  std::vector<std::string> asked(texts + 1, texts + count);
-  const auto takes = [&](const std::string& word) {
-    const auto place = std::find(asked.begin(), asked.end(), word);
-    if (place == asked.end()) return false;
-    asked.erase(place);
-    return true;
-  };
-  const bool verbose = takes("verbose");
-  const bool all = asked.empty();
-  if (all || takes("bunny")) drape::measure_bunny(verbose);
-  if (all || takes("captures")) {
-    drape::measure_captures(
-        {"pcl_pairwise/capture0001.pcd", "pcl_pairwise/capture0002.pcd", "pcl_pairwise/capture0003.pcd",
-         "pcl_pairwise/capture0004.pcd", "pcl_pairwise/capture0005.pcd"},
-        verbose);
-    drape::measure_captures({"pcl_room/room_scan1.pcd", "pcl_room/room_scan2.pcd"}, verbose);
-  }
-  if (all || takes("alien")) drape::measure_aliens(verbose);
-  if (all) asked.emplace_back("pairs=200");
-  for (const std::string& text : asked)
-    if (const auto pairs = text.starts_with("pairs=") ? drape::parse_integer(text.substr(6)) : std::nullopt)
-      drape::measure_pairs(static_cast<int>(*pairs), verbose);
-    else
-      return fmt::print("unknown: {}\n", text), 64;
-  return 0;
+  return drape::test::measuring_main(count, texts, [](drape::test::ProgramArguments& arguments) {
+    const bool verbose = arguments.flag("verbose");
+    const bool bunny = arguments.flag("bunny");
+    const bool captures = arguments.flag("captures");
+    const bool alien = arguments.flag("alien");
+    const std::optional<int> pairs = arguments.integer("pairs");
+    arguments.finish();
+    const bool all = !bunny && !captures && !alien && !pairs;
+    if (all || bunny) drape::measure_bunny(verbose);
+    if (all || captures) {
+      drape::measure_captures(
+          {"pcl_pairwise/capture0001.pcd", "pcl_pairwise/capture0002.pcd", "pcl_pairwise/capture0003.pcd",
+           "pcl_pairwise/capture0004.pcd", "pcl_pairwise/capture0005.pcd"},
+          verbose);
+      drape::measure_captures({"pcl_room/room_scan1.pcd", "pcl_room/room_scan2.pcd"}, verbose);
+    }
+    if (all || alien) drape::measure_aliens(verbose);
+    if (all || pairs) drape::measure_pairs(pairs.value_or(200), verbose);
+  });
 }

@@ -14,6 +14,7 @@
 
 #include "drape/base/error.hpp"
 #include "drape/segmentation/segment_photo.hpp"
+#include "program_arguments.hpp"
 #include "support.hpp"
 
 namespace drape {
@@ -156,35 +157,20 @@ void measure(const std::vector<Case>& cases, const SegmentOptions& options, cons
   }
 }
 
-}  // namespace
-}  // namespace drape
-
-int main(int count, char** arguments) {
-  using namespace drape;
+void run(test::ProgramArguments& arguments) {
   if (!test::have_data("segmentation")) {
     fmt::print("skipped: needs segmentation/ of DRAPE_TEST_DATA\n");
-    return 0;
+    return;
   }
   SegmentOptions options;
   std::string only;
   std::string save_folder;
   std::string methods;
-  for (int i = 1; i < count; ++i) {
-    const std::string argument = arguments[i];
-    const std::size_t equals = argument.find('=');
-    if (argument.substr(0, equals) == "only") only = argument.substr(equals + 1);
-    if (argument.substr(0, equals) == "methods") methods = argument.substr(equals + 1);
-    if (argument.substr(0, equals) == "save") save_folder = argument.substr(equals + 1);
-    for (const Option& option : options_of(options))
-      if (option.name == argument.substr(0, equals)) {
-        const auto value = parse_option(option, argument.substr(equals + 1));
-        if (const auto* problem = std::get_if<std::string>(&value)) {
-          fmt::print("{}: {}\n", argument, *problem);
-          return 64;
-        }
-        option.assign(std::get<OptionValue>(value));
-      }
-  }
+  if (const auto given = arguments.text("only")) only = *given;
+  if (const auto given = arguments.text("methods")) methods = *given;
+  if (const auto given = arguments.text("save")) save_folder = *given;
+  arguments.read(options);
+  arguments.finish();
   std::vector<Case> cases;
   std::vector<fs::path> photos;
   for (const auto& entry : fs::directory_iterator(test::data("segmentation")))
@@ -202,5 +188,11 @@ int main(int count, char** arguments) {
     options.method = method;
     measure(cases, options, name, only, save_folder);
   }
-  return 0;
+}
+
+}  // namespace
+}  // namespace drape
+
+int main(int count, char** texts) {
+  return drape::test::measuring_main(count, texts, drape::run);
 }

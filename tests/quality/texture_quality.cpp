@@ -21,6 +21,7 @@
 #include "drape/simulation/virtual_camera.hpp"
 #include "drape/texturing/texture_mesh.hpp"
 #include "painted_object.hpp"
+#include "program_arguments.hpp"
 
 namespace drape {
 namespace {
@@ -304,29 +305,14 @@ void measure_seams(const Object& object, TextureOptions options) {
       object.name, after, floor, before, 100 * std::max(0.0, after - floor) / (before - floor));
 }
 
-}  // namespace
-}  // namespace drape
-
-int main(int count, char** arguments) {
-  using namespace drape;
+void run(test::ProgramArguments& arguments) {
   texturing::TextureOptions options;
   std::string folder;
   std::string wanted = "teapot,statue,mug,apple,books";
-  for (int i = 1; i < count; ++i) {
-    const std::string argument = arguments[i];
-    const std::size_t equals = argument.find('=');
-    if (argument.substr(0, equals) == "save") folder = argument.substr(equals + 1);
-    if (argument.substr(0, equals) == "objects") wanted = argument.substr(equals + 1);
-    for (const Option& option : options_of(options))
-      if (option.name == argument.substr(0, equals)) {
-        const auto value = parse_option(option, argument.substr(equals + 1));
-        if (const auto* problem = std::get_if<std::string>(&value)) {
-          fmt::print("{}: {}\n", argument, *problem);
-          return 64;
-        }
-        option.assign(std::get<OptionValue>(value));
-      }
-  }
+  if (const auto given = arguments.text("save")) folder = *given;
+  if (const auto given = arguments.text("objects")) wanted = *given;
+  arguments.read(options);
+  arguments.finish();
   const std::vector<std::pair<std::string, simulation::ObjectKind>> kinds = {
       {"teapot", simulation::ObjectKind::teapot},
       {"statue", simulation::ObjectKind::statue},
@@ -345,5 +331,11 @@ int main(int count, char** arguments) {
     measure_occlusion(object, options);
     measure_seams(object, options);
   }
-  return 0;
+}
+
+}  // namespace
+}  // namespace drape
+
+int main(int count, char** texts) {
+  return drape::test::measuring_main(count, texts, drape::run);
 }

@@ -14,6 +14,7 @@
 #include "drape/io/photo.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "drape/texturing/texture_mesh.hpp"
+#include "program_arguments.hpp"
 #include "support.hpp"
 
 namespace drape {
@@ -131,33 +132,24 @@ void measure(const nlohmann::json& item, const texturing::TextureOptions& option
   io::write_image(fmt::format("{}/{}_material.png", folder, id), result.model.materials[0].image);
 }
 
-}  // namespace
-}  // namespace drape
-
-int main(int count, char** arguments) {
-  using namespace drape;
+void run(test::ProgramArguments& arguments) {
   if (!test::have_data("photos/lmo")) {
     fmt::print("skipped: needs photos/lmo of DRAPE_TEST_DATA\n");
-    return 0;
+    return;
   }
   texturing::TextureOptions options;
   std::string folder;
-  for (int i = 1; i < count; ++i) {
-    const std::string argument = arguments[i];
-    const std::size_t equals = argument.find('=');
-    if (argument.substr(0, equals) == "save") folder = argument.substr(equals + 1);
-    for (const Option& option : options_of(options))
-      if (option.name == argument.substr(0, equals)) {
-        const auto value = parse_option(option, argument.substr(equals + 1));
-        if (const auto* problem = std::get_if<std::string>(&value)) {
-          fmt::print("{}: {}\n", argument, *problem);
-          return 64;
-        }
-        option.assign(std::get<OptionValue>(value));
-      }
-  }
+  if (const auto given = arguments.text("save")) folder = *given;
+  arguments.read(options);
+  arguments.finish();
   const auto poses = nlohmann::json::parse(read_file(test::data("photos/poses.json")));
   for (const auto& item : poses["items"])
     if (item["image"].get<std::string>().find("lmo") != std::string::npos) measure(item, options, folder);
-  return 0;
+}
+
+}  // namespace
+}  // namespace drape
+
+int main(int count, char** texts) {
+  return drape::test::measuring_main(count, texts, drape::run);
 }
