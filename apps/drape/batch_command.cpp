@@ -66,22 +66,15 @@ BatchPlan plan_of(const BatchArguments& arguments, bool digests) {
   return pipeline::write_plan(std::move(batch), arguments.chunk_size);
 }
 
-pipeline::BatchRunOptions run_options(const BatchArguments& arguments, const std::atomic<bool>& stop) {
-  pipeline::BatchRunOptions options;
-  options.pool.at_once = arguments.jobs;
-  options.pool.memory_mb =
-      arguments.memory_mb > 0 ? arguments.memory_mb : 0.9 * pipeline::available_memory_mb();
-  options.pool.stop = &stop;
-  options.limits = {arguments.object_seconds, arguments.object_cpu_seconds, arguments.object_memory_mb};
-  options.threads = threads_each(arguments);
-  options.command = arguments.command;
-  options.versions = versions();
-  options.after_run = [](const pipeline::Config& config, const pipeline::RunResult& result) {
-    // A page for each of thousands of objects takes longer than small objects themselves: where nothing was
-    // wrong, `drape run` or `drape report` makes it when it is wanted.
-    if (result.record.status == "review") stages::write_run_report(config, result, versions());
-  };
-  return options;
+int threads_each(const BatchArguments& arguments) {
+  if (arguments.threads > 0) return arguments.threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / arguments.jobs);
+}
+
+// A page for each of thousands of objects takes longer than small objects themselves: where nothing was
+// wrong, `drape run` or `drape report` makes it when it is wanted.
+void report_reviews(const pipeline::Config& config, const pipeline::RunResult& result) {
+  if (result.record.status == "review") stages::write_run_report(config, result, versions());
 }
 
 void print_result(const ObjectResult& result, std::size_t done, std::size_t count) {
@@ -108,6 +101,7 @@ int print_summary(const Batch& batch, const BatchSummary& summary, std::size_t m
 int run_and_tell(const Batch& batch, const std::vector<const BatchObject*>& objects,
                  const BatchArguments& arguments, const std::atomic<bool>& stop) {
   pipeline::BatchRunOptions options = run_options(arguments, stop);
+  options.after_run = report_reviews;
   std::size_t done = 0;
   if (!arguments.quiet)
     options.ended = [&](const ObjectResult& result) { print_result(result, ++done, objects.size()); };
@@ -130,9 +124,17 @@ std::vector<const BatchObject*> not_done(const Batch& batch) {
 
 }  // namespace
 
-int threads_each(const BatchArguments& arguments) {
-  if (arguments.threads > 0) return arguments.threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / arguments.jobs);
+pipeline::BatchRunOptions run_options(const BatchArguments& arguments, const std::atomic<bool>& stop) {
+  pipeline::BatchRunOptions options;
+  options.pool.at_once = arguments.jobs;
+  options.pool.memory_mb =
+      arguments.memory_mb > 0 ? arguments.memory_mb : 0.9 * pipeline::available_memory_mb();
+  options.pool.stop = &stop;
+  options.limits = {arguments.object_seconds, arguments.object_cpu_seconds, arguments.object_memory_mb};
+  options.threads = threads_each(arguments);
+  options.command = arguments.command;
+  options.versions = versions();
+  return options;
 }
 
 int batch_run_command(const BatchArguments& arguments, const std::atomic<bool>& stop) {
@@ -171,6 +173,7 @@ int batch_worker_command(const BatchArguments& arguments, const std::atomic<bool
   }
   const char* restarts = std::getenv("SLURM_RESTART_COUNT");
   pipeline::BatchRunOptions options = run_options(arguments, stop);
+  options.after_run = report_reviews;
   options.last_attempt = restarts != nullptr && parse_integer(restarts).value_or(0) >= most_restarts;
   try {
     return pipeline::run_objects(plan.batch, objects, stages::stage_table(), options) == 0 ? 0 : try_again;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "drape/pipeline/batch.hpp"
+
 namespace drape::app {
 
 struct BatchArguments {
@@ -31,8 +33,10 @@ struct BatchArguments {
   std::string command;  // the command line as it was typed
 };
 
-/// What --threads says; else the cores divided among the objects that run at once.
-[[nodiscard]] int threads_each(const BatchArguments& arguments);
+/// What the command line asks for. An object has as many threads as --threads says, else the cores divided
+/// among the objects that run at once.
+[[nodiscard]] pipeline::BatchRunOptions run_options(const BatchArguments& arguments,
+                                                    const std::atomic<bool>& stop);
 
 int batch_run_command(const BatchArguments& arguments, const std::atomic<bool>& stop);
 int batch_plan_command(const BatchArguments& arguments);

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "batch_command_line.hpp"
+#include "command_tree.hpp"
 #include "commands.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/log.hpp"
@@ -86,6 +87,7 @@ struct CommandLine {
   std::filesystem::path status = ".";
   NewArguments create;
   std::filesystem::path reference = "config/REFERENCE.md";
+  std::string shell;
   bool reference_check = false;
   SimulateArguments simulate;
   SegmentArguments segment;
@@ -119,6 +121,8 @@ struct CommandLine {
     add_reference();
     add_simulate();
     add_segment();
+    add_completion();
+    add_manual();
     app.footer(
         "Examples:\n  drape new scans/*.ply --photo front.jpg -o statue.yaml\n  drape run statue.yaml\n"
         "Each command has its own --help.");
@@ -354,6 +358,33 @@ struct CommandLine {
         if (reference_command(reference, reference_check)) return 0;
         throw input_error("{}: is stale; make it again with: drape reference {}", reference.string(),
                           reference.string());
+      };
+    });
+  }
+
+  void add_completion() {
+    CLI::App* sub = command("completion", "Print a script that completes drape's words in a shell",
+                            "drape completion bash >~/.local/share/bash-completion/completions/drape");
+    sub->add_option("shell", shell, "bash or zsh")
+        ->required()
+        ->check(CLI::IsMember({"bash", "zsh"}))
+        ->type_name("SHELL");
+    sub->callback([this] {
+      action = [this] {
+        const auto tree = command_tree(app);
+        fmt::print("{}", shell == "zsh" ? zsh_completion(tree, value_words())
+                                        : bash_completion(tree, value_words()));
+        return 0;
+      };
+    });
+  }
+
+  void add_manual() {
+    CLI::App* sub = command("manual", "Print the manual page, for man", "drape manual >drape.1");
+    sub->callback([this] {
+      action = [this] {
+        fmt::print("{}", manual_page(command_tree(app)));
+        return 0;
       };
     });
   }

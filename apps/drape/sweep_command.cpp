@@ -28,15 +28,7 @@ int sweep_command(const BatchArguments& arguments, const std::atomic<bool>& stop
     }
     return 0;
   }
-  pipeline::BatchRunOptions options;
-  options.pool.at_once = arguments.jobs;
-  options.pool.memory_mb =
-      arguments.memory_mb > 0 ? arguments.memory_mb : 0.9 * pipeline::available_memory_mb();
-  options.pool.stop = &stop;
-  options.limits = {arguments.object_seconds, arguments.object_cpu_seconds, arguments.object_memory_mb};
-  options.threads = threads_each(arguments);
-  options.command = arguments.command;
-  options.versions = versions();
+  pipeline::BatchRunOptions options = run_options(arguments, stop);
   std::size_t done = 0;
   if (!arguments.quiet)
     options.ended = [&](const pipeline::ObjectResult& result) {
