@@ -32,7 +32,8 @@ std::string usage(const CommandNode& node) {
   for (const CommandOption& option : node.options) {
     if (!option.positional) continue;
     const std::string name = option.value.empty() ? option.names.front() : option.value;
-    text += fmt::format(option.required ? " {}{}" : " [{}{}]", name, option.repeats ? "..." : "");
+    const std::string word = option.repeats ? name + "..." : name;
+    text += option.required ? " " + word : " [" + word + "]";
   }
   return text;
 }

@@ -37,7 +37,8 @@ std::vector<Stage> table_with(Body body) {
     stage.instantiate = [original = stage.instantiate, reads = stage.reads, writes = stage.writes, body] {
       Stage::Instance instance = original();
       const std::vector<Option> options = instance.options;
-      instance.run = [=](pipeline::StageRun& run) {
+      // The real body is held, not called: it owns what the options point to.
+      instance.run = [=, held = instance.run](pipeline::StageRun& run) {
         std::string text;
         if (body == Body::tells_its_options)
           for (const Option& option : options) text += option.name + "=" + canonical(option.get()) + "\n";
@@ -71,7 +72,10 @@ std::string other_value(const Option& option) {
   };
   const auto number = [&](double now) {
     std::vector<double> tries = {now + 1, now - 1, now / 2 + 0.25};
-    if (option.range) tries.insert(tries.end(), {option.range->least, option.range->most});
+    if (option.range) {
+      tries.push_back(option.range->least);
+      tries.push_back(option.range->most);
+    }
     for (const double value : tries)
       if (value != now && within(value) && (option.kind != OptionKind::integer || value == std::floor(value)))
         return value;
@@ -227,9 +231,11 @@ TEST_F(OptionChange, ASweepOverAlignRunsWhatComesBeforeOnce) {
   options.pool.at_once = 2;
   EXPECT_EQ(pipeline::run_objects(sweep.batch, pipeline::longest_first(sweep.batch), table, options), 0U);
   std::map<std::string, int> times;
-  for (const pipeline::BatchObject& object : sweep.batch.objects)
-    for (const std::string& stage : pipeline::read_object_result(sweep.batch.result_file(object.id))->ran)
-      ++times[stage];
+  for (const pipeline::BatchObject& object : sweep.batch.objects) {
+    const auto result = pipeline::read_object_result(sweep.batch.result_file(object.id));
+    ASSERT_TRUE(result.has_value());
+    for (const std::string& stage : result->ran) ++times[stage];
+  }
   for (const char* stage : {"ingest", "register", "mesh", "fill", "segment"})
     EXPECT_EQ(times[stage], 1) << stage;
   for (const char* stage : {"align", "texture", "export"}) EXPECT_EQ(times[stage], 9) << stage;

@@ -97,8 +97,7 @@ SlurmdUser=USER
 SlurmctldPort=CONTROLLER_PORT
 SlurmdPort=NODE_PORT
 AuthType=auth/munge
-# A job that is sent again may start after as long as a credential lives.
-AuthInfo=socket=FOLDER/run/munge.sock,cred_expire=2
+AuthInfo=socket=FOLDER/run/munge.sock
 CredType=cred/munge
 StateSaveLocation=FOLDER/state
 SlurmdSpoolDir=FOLDER/spool

@@ -16,7 +16,7 @@ struct ShellOutcome {
 [[nodiscard]] ShellOutcome run_shell(const std::string& line);
 
 /// munged, slurmctld and slurmd, without systemd; SLURM_CONF names the cluster to sbatch and the like as long
-/// as it lives. Two cores, tasks that ask to be sent again (exit code 75) are sent after a few seconds.
+/// as it lives. Two cores; a task that exits with 75 is sent again.
 class SlurmCluster {
  public:
   /// Whether Slurm's and MUNGE's programs are installed.
