@@ -11,7 +11,7 @@ cpack --config "$build/CPackConfig.cmake" -B "$scratch/cpack" >"$scratch/cpack.l
   { cat "$scratch/cpack.log" && fail "cpack failed"; }
 package=$(echo "$scratch"/cpack/drape_*.deb)
 depends=$(dpkg-deb --field "$package" Depends)
-for library in libc6 libosmesa6 libopencv-imgproc libpcl-registration libtbb12 libmeshoptimizer; do
+for library in libc6 libosmesa6 libopencv-imgproc libmpfr6 libtbb12 libmeshoptimizer; do
   [[ $depends == *"$library"* ]] || fail "does not depend on $library: $depends"
 done
 dpkg-deb --extract "$package" "$scratch/root"
@@ -35,7 +35,7 @@ if command -v groff >/dev/null; then
 fi
 
 completions() {  # completions WORD...: what TAB offers after these words
-  bash -c 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _drape; echo "${COMPREPLY[*]}"' \
+  bash -c 'source "$1"; shift; compopt() { :; }; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _drape; echo "${COMPREPLY[*]}"' \
     bash "$usr/share/bash-completion/completions/drape" "$@"
 }
 expect() {  # expect EXPECTED WORD...
