@@ -15,6 +15,7 @@
 #include "neighborhoods.hpp"
 #include "point_filters.hpp"
 #include "statistical_outliers.hpp"
+#include "support_plane.hpp"
 #include "surface_normals.hpp"
 
 namespace drape::ingest {
@@ -157,6 +158,8 @@ CleanedScan clean_scan(const RangeScan& raw, const CleanOptions& options, const 
   drop(cleaned, "intensity", outside_of_intensities(scan, options.min_intensity, options.max_intensity));
   const double raw_spacing = point_spacing(scan);
   const ScanView view = view_or_lattice_axis(scan);
+  if (options.support_plane == SupportPlane::drop)
+    drop(cleaned, "support_plane", support_plane(scan, view, options.support_plane_spacings * raw_spacing));
 
   progress.update(0.2);
   drop(cleaned, "mixed_pixel", mixed_pixels(scan, view, options.mixed_pixel_angle_deg));

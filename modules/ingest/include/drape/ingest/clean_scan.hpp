@@ -18,8 +18,12 @@ enum class Normals {
   estimate,   // always estimated
 };
 
+enum class SupportPlane { keep, drop };
+
 struct CleanOptions {
   std::vector<double> crop_box;
+  SupportPlane support_plane = SupportPlane::keep;
+  double support_plane_spacings = 3;
   double min_intensity = 0;
   double max_intensity = 1;
   double mixed_pixel_angle_deg = 80;
@@ -40,6 +44,12 @@ inline void describe(Binder& b, CleanOptions& o) {
       "crop_box", o.crop_box, 6, {-1e12, 1e12},
       "keep only what lies in this box, in the units and the frame of each scan file: least x, y, z, then "
       "greatest x, y, z; without it all is kept");
+  b.choice("support_plane", o.support_plane, {{"keep", SupportPlane::keep}, {"drop", SupportPlane::drop}},
+           "drop takes out the table or floor that the object stands on, and what lies behind it: a plane "
+           "that holds "
+           "a sixth of a scan's points at least, with nearly all others on the scanner's side");
+  b.number("support_plane_spacings", o.support_plane_spacings, {0.1, 1000},
+           "points this close to the support plane belong to it");
   b.number("min_intensity", o.min_intensity, {0, 1},
            "drop points with a weaker return than this, where the scan says so: dark surfaces and dust");
   b.number("max_intensity", o.max_intensity, {0, 1},
@@ -72,14 +82,15 @@ inline void describe(Binder& b, CleanOptions& o) {
 
 struct CleanedScan {
   RangeScan scan;  // with normals, confidences and spacing
-  /// Points that each filter dropped: not_finite, duplicate, cropped, intensity, mixed_pixel, outlier,
-  /// sparse, grazing, island, thinned.
+  /// Points that each filter dropped: not_finite, duplicate, cropped, intensity, support_plane, mixed_pixel,
+  /// outlier, sparse, grazing, island, thinned.
   std::map<std::string, std::size_t> dropped;
 };
 
 /// Filters a scan, in this order:
 /// - points that are not finite, and all but the first of points at the same place;
 /// - what lies outside of the crop box, or returned too little or too much;
+/// - the plane that the object stands on, if asked for: needs a view;
 /// - mixed pixels, where the laser spot lay half on a front and half on a back surface (after Tuley et al.
 ///   2005): needs a grid;
 /// - statistical outliers (Rusu et al. 2008; the rule of PCL's StatisticalOutlierRemoval, but nothing within
