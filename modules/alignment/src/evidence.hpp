@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -9,6 +10,7 @@
 
 #include "outline_drawing.hpp"
 #include "polar_view.hpp"
+#include "stencil_level.hpp"
 
 namespace drape::alignment {
 
@@ -26,10 +28,18 @@ struct Agreement {
   double rim_inliers = 0;    // of the model's rim where the photo says anything
   double image_inliers = 0;  // of the photo's outline
   double rms_px = 0;         // of the inliers, in window pixels
+  /// Of both outlines, the inliers weighted by 1 - (distance / what is an inlier)^2.
+  double fit = 0;
 
   /// What poses are ranked by, 0..1. The outline says more than the area: of a stencil that is wrong in part
-  /// the rest of the outline still fits the right pose, while the area fits many.
-  [[nodiscard]] double score() const { return 0.25 * overlap + 0.375 * (rim_inliers + image_inliers); }
+  /// the rest of the outline still fits the right pose, while the area fits many, and some of them better.
+  [[nodiscard]] double score() const { return 0.1 * overlap + 0.9 * fit; }
+  /// What iterates of one pose are ranked by: the area still grows where the outline already fits all round.
+  [[nodiscard]] double closeness() const {
+    return fit + (std::min(rim_inliers, image_inliers) > 0.85 ? overlap : 0.0);
+  }
+  /// How much of the stencil a pose explains, 0..1.
+  [[nodiscard]] double explained() const { return 0.25 * overlap + 0.375 * (rim_inliers + image_inliers); }
 };
 
 /// The search, the refinement and the verdict ask for nothing else. Levels go from coarse to the photo's
@@ -52,6 +62,10 @@ class Evidence {
     virtual void score(const PolarBits& view, std::span<float, polar_angles> scores) const = 0;
   };
   [[nodiscard]] virtual std::unique_ptr<RollScores> rolls(const PolarFrame& frame) const = 0;
+
+  /// The outline at level 0, which may be wrong in part; nothing for evidence without one. It is searched
+  /// instead of further frames.
+  [[nodiscard]] virtual const StencilLevel* outline() const { return nullptr; }
 
   /// What pulls at the rim of a drawn pose from up to `reach_px` away (into `residuals`), and how well it
   /// fits; `inlier_px` is what counts as on the outline.

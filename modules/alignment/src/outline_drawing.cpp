@@ -34,20 +34,26 @@ void OutlineDrawing::draw(const OutlineMesh& mesh, const OutlinePose& pose, cons
     stencil_ = BitImage(window.width, window.height);
   else
     stencil_.clear();
-  draw_faces(places_, mesh.faces, stencil_);
+  if (with_rim || mesh.closed) find_sides(mesh);
+  draw_faces(places_, mesh.closed ? seen_ : mesh.faces, stencil_);
   gaps_ = mesh.open ? enclosed_gaps(stencil_) : BitImage();
   rim_.clear();
   if (with_rim) find_rim(mesh, pose, window);
 }
 
-void OutlineDrawing::find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window) {
-  // Which side of a face is seen is the sense of its projection, exactly, with perspective and all.
+// Which side of a face is seen is the sense of its projection, exactly, with perspective and all.
+void OutlineDrawing::find_sides(const OutlineMesh& mesh) {
   front_.resize(mesh.faces.size());
+  seen_.clear();
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const Face& face = mesh.faces[f];
     const Eigen::Vector2d& corner = places_[face[0]];
     front_[f] = cross(places_[face[1]] - corner, places_[face[2]] - corner) < 0 ? 1 : 0;
+    if (mesh.closed && front_[f] != 0) seen_.push_back(face);
   }
+}
+
+void OutlineDrawing::find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window) {
   for (const OutlineEdge& edge : mesh.edges) {
     const bool rim =
         edge.other == OutlineEdge::no_face || (front_[edge.face] != front_[edge.other]) != edge.turned;

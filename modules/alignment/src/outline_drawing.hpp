@@ -50,13 +50,15 @@ class OutlineDrawing {
   [[nodiscard]] const BitImage& gaps() const { return gaps_; }
 
  private:
+  void find_sides(const OutlineMesh& mesh);
   void find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window);
   void sample_edge(const OutlineMesh& mesh, const OutlineEdge& edge, const OutlinePose& pose,
                    const Window& window);
 
   std::vector<Eigen::Vector3d> turned_;
   std::vector<Eigen::Vector2d> places_;
-  std::vector<std::uint8_t> front_;
+  std::vector<std::uint8_t> front_;  // per face, whether it is seen from its front
+  std::vector<Face> seen_;
   BitImage stencil_;
   BitImage gaps_;
   std::vector<RimSample> rim_;

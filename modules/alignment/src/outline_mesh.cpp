@@ -104,6 +104,9 @@ OutlineMesh outline_mesh(const TriangleMesh& mesh, const UnitSphere& sphere) {
       result.faces.push_back(joined);
   }
   add_edges(result);
+  result.closed = std::all_of(result.edges.begin(), result.edges.end(), [](const OutlineEdge& edge) {
+    return edge.other != OutlineEdge::no_face && !edge.turned;
+  });
   return result;
 }
 

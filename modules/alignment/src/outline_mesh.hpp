@@ -34,6 +34,9 @@ struct OutlineMesh {
   std::vector<Face> faces;
   std::vector<OutlineEdge> edges;
   bool open = false;  // an edge has one face
+  /// Every edge has two faces that run along it in opposite ways: what faces the camera covers all that the
+  /// mesh does.
+  bool closed = false;
 };
 
 [[nodiscard]] OutlineMesh outline_mesh(const TriangleMesh& mesh, const UnitSphere& sphere);

@@ -10,6 +10,10 @@ namespace {
 constexpr double least_noise_px = 0.12;  // of residuals: what the pixel grid itself leaves
 constexpr double correlation_px = 3;     // along the outline: closer residuals share their error
 constexpr double most_turn_rad = 0.35;
+// Relative, of the diagonal: rotation, perspective and place are told apart by differences of a thousandth.
+constexpr double least_damping = 1e-6;
+constexpr double at_rest_sigmas = 0.1;
+constexpr int patient_iterations = 8;  // plans of so many may take twice as many to come to rest
 constexpr double least_kernel_px = 0.5;
 constexpr double principal_point_sigma = 0.03;  // of the photo's width
 
@@ -101,15 +105,17 @@ Eigen::MatrixXd free_directions(const LensPrior& lens, bool principal_point) {
 RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start, const Evidence& evidence,
                         const LensPrior& lens, const RefinementPlan& plan, OutlineDrawing& drawing) {
   const Window& window = evidence.window(plan.level);
-  const Eigen::MatrixXd directions = free_directions(lens, plan.free_principal_point);
+  Eigen::MatrixXd directions = free_directions(lens, plan.free_principal_point);
+  if (plan.hold_perspective && !lens.fixed_focal_px) directions = directions.leftCols<6>().eval();
   std::vector<RimResidual> residuals;
   std::vector<double> buffer;
   RefinedPose best;
   best.pose = within_lens(start, lens);
   OutlinePose pose = best.pose;
   bool first = true;
-  for (int i = 0; i <= plan.iterations; ++i) {
-    const double share = static_cast<double>(i) / std::max(1, plan.iterations);
+  bool settled = false;
+  for (int i = 0; i <= 2 * plan.iterations; ++i) {
+    const double share = settled ? 1 : std::min(1.0, static_cast<double>(i) / std::max(1, plan.iterations));
     const double reach = plan.reach_px * std::pow(plan.least_reach_px / plan.reach_px, share);
     drawing.draw(mesh, pose, window);
     const Agreement agreement = evidence.match(drawing, plan.level, reach, plan.inlier_px, residuals);
@@ -120,20 +126,24 @@ RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start, const
     const double kernel = std::max(least_kernel_px, 2 * median_distance(residuals, buffer));
     NormalEquations sum = normal_equations(pose, drawing.rim(), residuals, window.px_per_photo_px, kernel);
     add_priors(pose, lens, plan.free_principal_point, sum);
-    // Among iterates of one pose the area decides: it still grows where the outline already fits all round.
-    if (first || agreement.overlap + agreement.score() > best.agreement.overlap + best.agreement.score()) {
+    if (first || agreement.closeness() > best.agreement.closeness()) {
       best = {pose, agreement, sum.matrix, sum.chi_squared};
       first = false;
     }
     Eigen::MatrixXd matrix = directions.transpose() * sum.matrix * directions;
-    matrix.diagonal() *= 1 + 1e-4;
+    matrix.diagonal() *= 1 + least_damping;
     const Eigen::VectorXd solution = matrix.ldlt().solve(directions.transpose() * sum.vector);
     PoseVector step = directions * solution;
     if (!step.allFinite()) break;
+    // Against the spread that the residuals leave. What has come to rest is looked at once more with the
+    // least reach, within which less of the wrong outline is.
+    const bool at_rest = step.dot(sum.matrix * step) < at_rest_sigmas * at_rest_sigmas;
+    if (at_rest && share == 1) break;
+    if (i >= plan.iterations && plan.iterations < patient_iterations) break;
+    settled |= at_rest;
     const double turn = step.head<3>().norm();
     if (turn > most_turn_rad) step *= most_turn_rad / turn;
     pose = within_lens(moved(pose, step), lens);
-    if (turn < 2e-6 && i > 2) break;
   }
   return best;
 }

@@ -32,6 +32,7 @@ struct RefinementPlan {
   double least_reach_px = 2;  // of the last
   double inlier_px = 1.5;
   bool free_principal_point = false;
+  bool hold_perspective = false;  // at the start's
 };
 
 struct RefinedPose {

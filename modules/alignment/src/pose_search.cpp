@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "chamfer_search.hpp"
 #include "drape/base/parallel.hpp"
 #include "view_atlas.hpp"
 
@@ -15,12 +16,16 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180;
 constexpr int atlas_views = 400;
+constexpr int outline_views = 1000;
 constexpr double usual_perspective = 0.2;
-constexpr double distinct_rad = 10 * radians;  // of candidates of the coarse search
-constexpr double same_pose_rad = 3 * radians;  // of refined ones
+constexpr double distinct_rad = 10 * radians;
+constexpr double distinct_match_rad = 6 * radians;  // of candidates of the coarse search
+constexpr double same_pose_rad = 3 * radians;       // of refined ones
 constexpr std::size_t candidates_at_first = 48;
-constexpr std::size_t candidates_with_effort = 400;
+constexpr std::size_t candidates_with_effort = 300;
+constexpr std::size_t chamfer_matches_kept = 2500;
 constexpr std::size_t kept_after_glance = 16;
+constexpr std::size_t kept_with_effort = 32;
 constexpr std::size_t kept_for_middle = 8;
 constexpr std::size_t kept_for_full = 4;
 // What is worse than the best by more than this is no rival of it at the next level either.
@@ -43,13 +48,18 @@ Eigen::Matrix3d roll_matrix(double angle) {
 class CoarseSearch {
  public:
   CoarseSearch(const MeshLevels& meshes, const Evidence& evidence, const SearchSettings& settings)
-      : evidence_(evidence), settings_(settings) {
+      : mesh_(meshes.coarse), evidence_(evidence), settings_(settings) {
     const PolarFrame frame = evidence.frames(0).front();
-    views_ = view_atlas(meshes.coarse, atlas_views, expected_perspective(frame));
+    perspective_ = expected_perspective(frame);
+    views_ = view_atlas(mesh_, atlas_views, perspective_);
   }
 
-  /// Distinct starting poses, best first.
-  [[nodiscard]] std::vector<OutlinePose> starts(int effort, std::size_t most) const;
+  /// Distinct starting poses, best first. With effort 1 the evidence is taken to be wrong in part.
+  [[nodiscard]] std::vector<OutlinePose> starts(int effort, std::size_t most) const {
+    const bool outline = effort > 0 && evidence_.outline() != nullptr;
+    return distinct(outline ? by_outline() : by_frames(effort), outline ? distinct_match_rad : distinct_rad,
+                    most);
+  }
 
   [[nodiscard]] std::size_t listed(int effort) const {
     return evidence_.frames(effort).size() * views_.size() * polar_angles;
@@ -64,23 +74,28 @@ class CoarseSearch {
     // A body's radius of gyration in a picture is about half its bounding sphere's.
     return std::clamp(2 * frame.radius / evidence_.window(0).px_per_photo_px / *focal, 0.0, 0.6);
   }
+  [[nodiscard]] std::vector<OutlinePose> by_frames(int effort) const;
+  [[nodiscard]] std::vector<OutlinePose> by_outline() const;
+  [[nodiscard]] std::vector<OutlinePose> distinct(const std::vector<OutlinePose>& sorted, double apart_rad,
+                                                  std::size_t most) const;
   [[nodiscard]] OutlinePose pose_of(const Candidate& candidate, const PolarFrame& frame) const;
+  [[nodiscard]] OutlinePose pose_of(const AtlasView& view, double angle, double scale,
+                                    const Eigen::Vector2d& shift, const Eigen::Vector2d& center) const;
 
+  const OutlineMesh& mesh_;
   const Evidence& evidence_;
   const SearchSettings& settings_;
+  double perspective_ = 0;
   std::vector<AtlasView> views_;
 };
 
 // The view was drawn in the middle of the picture: the same look elsewhere is that of a body turned along
-// with the ray that it lies on.
-OutlinePose CoarseSearch::pose_of(const Candidate& candidate, const PolarFrame& frame) const {
-  const AtlasView& view = views_[candidate.view];
-  const Window& window = evidence_.window(0);
-  const double angle = 2 * std::numbers::pi * candidate.roll / polar_angles;
+// with the ray that it lies on. `scale`, `shift` and the body's `center` are in photo pixels.
+OutlinePose CoarseSearch::pose_of(const AtlasView& view, double angle, double scale,
+                                  const Eigen::Vector2d& shift, const Eigen::Vector2d& center) const {
   OutlinePose pose;
-  pose.scale = frame.radius / view.frame.radius / window.px_per_photo_px;
-  const Eigen::Vector2d center = window.to_photo(frame.center);
-  pose.shift = center - pose.scale * (Eigen::Rotation2Dd(angle) * view.frame.center);
+  pose.scale = scale;
+  pose.shift = shift;
   pose.rotation = roll_matrix(angle) * view.rotation;
   if (settings_.lens.orthographic) return pose;
   pose.perspective = settings_.lens.fixed_focal_px ? pose.scale / *settings_.lens.fixed_focal_px
@@ -93,7 +108,17 @@ OutlinePose CoarseSearch::pose_of(const Candidate& candidate, const PolarFrame& 
   return pose;
 }
 
-std::vector<OutlinePose> CoarseSearch::starts(int effort, std::size_t most) const {
+OutlinePose CoarseSearch::pose_of(const Candidate& candidate, const PolarFrame& frame) const {
+  const AtlasView& view = views_[candidate.view];
+  const Window& window = evidence_.window(0);
+  const double angle = 2 * std::numbers::pi * candidate.roll / polar_angles;
+  const double scale = frame.radius / view.frame.radius / window.px_per_photo_px;
+  const Eigen::Vector2d center = window.to_photo(frame.center);
+  return pose_of(view, angle, scale, center - scale * (Eigen::Rotation2Dd(angle) * view.frame.center),
+                 center);
+}
+
+std::vector<OutlinePose> CoarseSearch::by_frames(int effort) const {
   const std::vector<PolarFrame> frames = evidence_.frames(effort);
   std::vector<std::vector<Candidate>> found(frames.size() * views_.size());
   parallel_for(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -115,13 +140,32 @@ std::vector<OutlinePose> CoarseSearch::starts(int effort, std::size_t most) cons
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
   std::stable_sort(all.begin(), all.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::vector<OutlinePose> poses;
+  for (const Candidate& candidate : all) poses.push_back(pose_of(candidate, frames[candidate.frame]));
+  return poses;
+}
+
+std::vector<OutlinePose> CoarseSearch::by_outline() const {
+  const Window& window = evidence_.window(0);
+  const std::vector<AtlasView> views = view_atlas(mesh_, outline_views, perspective_);
+  std::vector<OutlinePose> poses;
+  for (const ChamferMatch& match :
+       chamfer_matches(mesh_, views, *evidence_.outline(), chamfer_matches_kept)) {
+    const Eigen::Vector2d shift = window.to_photo(match.shift);
+    poses.push_back(
+        pose_of(views[match.view], match.angle, match.scale / window.px_per_photo_px, shift, shift));
+  }
+  return poses;
+}
+
+std::vector<OutlinePose> CoarseSearch::distinct(const std::vector<OutlinePose>& sorted, double apart_rad,
+                                                std::size_t most) const {
   std::vector<OutlinePose> starts;
-  for (const Candidate& candidate : all) {
+  for (const OutlinePose& pose : sorted) {
     if (starts.size() == most) break;
-    const OutlinePose pose = pose_of(candidate, frames[candidate.frame]);
     if (settings_.allowed && !settings_.allowed(pose)) continue;
     const bool seen = std::any_of(starts.begin(), starts.end(), [&](const OutlinePose& better) {
-      return angle_between(better.rotation, pose.rotation) < distinct_rad &&
+      return angle_between(better.rotation, pose.rotation) < apart_rad &&
              (better.shift - pose.shift).norm() < 0.1 * pose.scale &&
              std::abs(std::log(better.scale / pose.scale)) < 0.1;
     });
@@ -141,10 +185,7 @@ std::vector<RefinedPose> best_of(std::vector<RefinedPose> poses, std::size_t mos
     const auto seen = std::find_if(kept.begin(), kept.end(), [&](const RefinedPose& better) {
       return angle_between(better.pose.rotation, pose.pose.rotation) < same_pose_rad;
     });
-    // Of versions of one pose the area decides, as among the iterates of one refinement.
-    if (seen != kept.end() &&
-        pose.agreement.overlap + pose.agreement.score() > seen->agreement.overlap + seen->agreement.score())
-      *seen = pose;
+    if (seen != kept.end() && pose.agreement.closeness() > seen->agreement.closeness()) *seen = pose;
     if (seen == kept.end()) kept.push_back(std::move(pose));
   }
   return kept;
@@ -251,6 +292,7 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
   const Refinement refinement(evidence, settings);
   const int last = evidence.levels() - 1;
   const RefinementPlan glance{0, 5, 16, 6, 1.5, false};
+  const RefinementPlan close_glance{0, 5, 8, 4, 1.5, false, true};
   const RefinementPlan coarse{0, 12, 8, 2, 1.0, false};
   const RefinementPlan middle{std::min(1, last), 8, 6, 2, 1.0, false};
 
@@ -266,13 +308,14 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
       result.statistics.candidates_listed = static_cast<int>(search.listed(effort));
       result.statistics.candidates_tried += static_cast<int>(starts.size());
       std::vector<RefinedPose> glanced =
-          best_of(refinement.all(meshes.coarse, starts, glance, progress), kept_after_glance);
+          best_of(refinement.all(meshes.coarse, starts, effort == 0 ? glance : close_glance, progress),
+                  effort == 0 ? kept_after_glance : kept_with_effort);
       progress.update(effort == 0 ? 0.4 : 0.6, "refining");
       std::vector<RefinedPose> settled = refinement.all(meshes.coarse, poses_of(glanced), coarse, progress);
       progress.update(effort == 0 ? 0.5 : 0.7, "refining");
       refined.insert(refined.end(), settled.begin(), settled.end());
-      refined = best_of(std::move(refined), kept_after_glance);
-      if (refined.empty() || refined.front().agreement.score() > good_score) break;
+      refined = best_of(std::move(refined), kept_with_effort);
+      if (refined.empty() || refined.front().agreement.explained() > good_score) break;
     }
   }
   result.statistics.coarse_seconds =

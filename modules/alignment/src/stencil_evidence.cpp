@@ -118,13 +118,15 @@ bool set_at(const BitImage& image, const Eigen::Vector2d& x) {
 }
 
 struct Tally {
-  double inlier = 0, total = 0, squares = 0;
+  double inlier = 0, total = 0, squares = 0, weighted = 0;
   void add(double length, double distance, double inlier_px) {
     total += length;
     if (std::abs(distance) > inlier_px) return;
     inlier += length;
     squares += length * distance * distance;
+    weighted += length * (1 - distance * distance / (inlier_px * inlier_px));
   }
+  [[nodiscard]] double share(double of) const { return total > 0 ? of / total : 0; }
 };
 
 }  // namespace
@@ -134,16 +136,8 @@ StencilEvidence::StencilEvidence(const Image8& stencil, const PhotoPlane& plane)
     levels_.push_back(stencil_level(stencil, plane, step, levels_.empty() ? coarse_reach_px : reach_px));
 }
 
-std::vector<PolarFrame> StencilEvidence::frames(int effort) const {
-  const PolarFrame middle = polar_frame(levels_.front().object);
-  std::vector<PolarFrame> frames = {middle};
-  if (effort == 0 || middle.radius == 0) return frames;
-  for (const double size : {1.0, 0.85, 1.18})
-    for (const double dx : {0.0, -0.25, 0.25})
-      for (const double dy : {0.0, -0.25, 0.25})
-        if (size != 1 || dx != 0 || dy != 0)
-          frames.push_back({middle.center + middle.radius * Eigen::Vector2d(dx, dy), size * middle.radius});
-  return frames;
+std::vector<PolarFrame> StencilEvidence::frames(int /*effort*/) const {
+  return {polar_frame(levels_.front().object)};
 }
 
 std::unique_ptr<Evidence::RollScores> StencilEvidence::rolls(const PolarFrame& frame) const {
@@ -193,8 +187,9 @@ Agreement StencilEvidence::match(const OutlineDrawing& drawing, int level_index,
   }
   Agreement agreement;
   agreement.overlap = overlap_of(drawing, level);
-  agreement.rim_inliers = from_rim.total > 0 ? from_rim.inlier / from_rim.total : 0;
-  agreement.image_inliers = from_image.total > 0 ? from_image.inlier / from_image.total : 0;
+  agreement.rim_inliers = from_rim.share(from_rim.inlier);
+  agreement.image_inliers = from_image.share(from_image.inlier);
+  agreement.fit = 0.5 * (from_rim.share(from_rim.weighted) + from_image.share(from_image.weighted));
   const double inlier = from_rim.inlier + from_image.inlier;
   agreement.rms_px = inlier > 0 ? std::sqrt((from_rim.squares + from_image.squares) / inlier) : 0;
   return agreement;

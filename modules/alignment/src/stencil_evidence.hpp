@@ -18,6 +18,7 @@ class StencilEvidence final : public Evidence {
   [[nodiscard]] const Window& window(int level) const override { return at(level).window; }
   [[nodiscard]] std::vector<PolarFrame> frames(int effort) const override;
   [[nodiscard]] std::unique_ptr<RollScores> rolls(const PolarFrame& frame) const override;
+  [[nodiscard]] const StencilLevel* outline() const override { return &levels_.front(); }
   [[nodiscard]] Agreement match(const OutlineDrawing& drawing, int level, double reach_px, double inlier_px,
                                 std::vector<RimResidual>& residuals) const override;
 

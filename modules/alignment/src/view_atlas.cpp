@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "drape/base/parallel.hpp"
-#include "outline_drawing.hpp"
 
 namespace drape::alignment {
 namespace {
@@ -31,30 +30,37 @@ Eigen::Vector3d fibonacci_direction(std::size_t i, int count) {
 
 }  // namespace
 
-std::vector<AtlasView> view_atlas(const OutlineMesh& mesh, int count, double perspective) {
-  Window window;
+double draw_view(const OutlineMesh& mesh, const AtlasView& view, bool with_rim, OutlineDrawing& drawing,
+                 Window& window) {
+  window = {};
   window.width = window.height = window_px;
   window.origin.setConstant(-window_px / 2.0);
-  // A sphere at distance 1 / p appears 1 / sqrt(1 - p^2) times as large as its middle's disc.
   OutlinePose pose;
-  pose.perspective = perspective;
-  pose.scale = (window_px / 2.0 - 2) * std::sqrt(1 - perspective * perspective);
+  pose.rotation = view.rotation;
+  pose.perspective = view.perspective;
+  // A sphere at distance 1 / p appears 1 / sqrt(1 - p^2) times as large as its middle's disc.
+  pose.scale = (window_px / 2.0 - 2) * std::sqrt(1 - view.perspective * view.perspective);
+  drawing.draw(mesh, pose, window, with_rim);
+  return pose.scale;
+}
 
+std::vector<AtlasView> view_atlas(const OutlineMesh& mesh, int count, double perspective) {
   std::vector<AtlasView> views(static_cast<std::size_t>(count));
   parallel_for(views.size(), 16, [&](std::size_t begin, std::size_t end) {
     OutlineDrawing drawing;
+    Window window;
     for (std::size_t i = begin; i < end; ++i) {
       AtlasView& view = views[i];
-      OutlinePose turned = pose;
-      turned.rotation = view.rotation = looking_along(fibonacci_direction(i, count));
-      drawing.draw(mesh, turned, window, false);
+      view.rotation = looking_along(fibonacci_direction(i, count));
+      view.perspective = perspective;
+      const double scale = draw_view(mesh, view, false, drawing, window);
       const BitImage& stencil = drawing.stencil();
       PolarFrame frame = polar_frame(stencil);
       view.bits = polar_bits(frame, [&](double x, double y) {
         return stencil.at(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
       });
-      view.frame.center = (frame.center + window.origin) / pose.scale;
-      view.frame.radius = frame.radius / pose.scale;
+      view.frame.center = (frame.center + window.origin) / scale;
+      view.frame.radius = frame.radius / scale;
     }
   });
   std::erase_if(views, [](const AtlasView& view) { return !(view.frame.radius > 0); });

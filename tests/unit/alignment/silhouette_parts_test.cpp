@@ -9,6 +9,7 @@
 
 #include "bit_raster.hpp"
 #include "bodies.hpp"
+#include "chamfer_search.hpp"
 #include "drape/base/random.hpp"
 #include "outline_drawing.hpp"
 #include "outline_pose.hpp"
@@ -16,6 +17,7 @@
 #include "polar_view.hpp"
 #include "stencil_evidence.hpp"
 #include "support.hpp"
+#include "view_atlas.hpp"
 
 namespace drape::alignment {
 namespace {
@@ -134,6 +136,26 @@ TEST(BitRaster, AgreesWithOpenGLButForCentresOnEdges) {
   EXPECT_LE(differences, 2);  // OpenGL rounds corners to 1/256 of a pixel
 }
 
+TEST(OutlineDrawing, OfAClosedMeshTheFrontsAreTheWholeStencil) {
+  const TriangleMesh mesh = test::torus(1, 0.4);
+  OutlineMesh outline = outline_mesh(mesh, unit_sphere(mesh));
+  ASSERT_TRUE(outline.closed);
+  const Window window{{-80, -60}, 1, 160, 120};
+  OutlineDrawing fronts;
+  fronts.draw(outline, some_pose(), window);
+  outline.closed = false;
+  OutlineDrawing all;
+  all.draw(outline, some_pose(), window);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) EXPECT_EQ(fronts.stencil().at(x, y), all.stencil().at(x, y));
+  EXPECT_EQ(fronts.rim().size(), all.rim().size());
+  std::swap(outline.faces.front()[0], outline.faces.front()[1]);  // one face inside out
+  TriangleMesh turned;
+  turned.vertices = outline.vertices;
+  turned.faces = outline.faces;
+  EXPECT_FALSE(outline_mesh(turned, unit_sphere(turned)).closed);
+}
+
 TEST(BitRaster, GapsAreWhatTheBorderDoesNotReach) {
   Rng rng(3);
   BitImage mesh(150, 40);
@@ -199,6 +221,36 @@ TEST(PolarView, ARollTurnsThePictureTheSameWay) {
   std::array<float, polar_angles> scores{};
   score_rolls(stencil, polar_bits({}, bar), scores);
   EXPECT_EQ(std::max_element(scores.begin(), scores.end()) - scores.begin(), 16);
+}
+
+TEST(ChamferSearch, PutsAViewWhereTheRestOfItsOutlineIs) {
+  const TriangleMesh mesh = knobbed_brick();
+  const OutlineMesh outline = outline_mesh(mesh, unit_sphere(mesh));
+  const std::vector<AtlasView> views = view_atlas(outline, 60, 0.2);
+  // The photo shows one of the views, turned, enlarged and cut through.
+  OutlinePose pose;
+  const double angle = 0.7;
+  pose.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) * views[17].rotation;
+  pose.scale = 55;
+  pose.shift << 6, -4;
+  pose.perspective = 0.2;
+  OutlineDrawing drawing;
+  drawing.draw(outline, pose, {{-80, -80}, 1, 160, 160});
+  Image8 photo(160, 160, 1, stencil::background);
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 110; ++x)
+      if (drawing.stencil().at(x, y)) photo.at(x, y) = stencil::object;
+  const StencilLevel level = stencil_level(photo, PhotoPlane(160, 160, std::nullopt), 1, 8);
+  const std::vector<ChamferMatch> matches = chamfer_matches(outline, views, level, 50);
+  ASSERT_EQ(matches.size(), 50U);
+  const auto right = std::find_if(matches.begin(), matches.end(), [&](const ChamferMatch& match) {
+    return match.view == 17 && std::abs(match.angle - angle) < 0.06 &&
+           std::abs(match.scale - pose.scale) < 0.04 * pose.scale &&
+           (level.window.to_photo(match.shift) - pose.shift).norm() < 3;
+  });
+  ASSERT_NE(right, matches.end());
+  EXPECT_GT(right->score, 0.6);
+  EXPECT_LT(right->score, 1);
 }
 
 TEST(PhotoPlane, UndistortsWhatTheLensDistorts) {
