@@ -31,7 +31,7 @@ std::string metric_text(const pipeline::RunResult& result, const std::string& st
 
 void print_summary(const pipeline::RunResult& result, const std::filesystem::path& report) {
   for (const std::filesystem::path& file : result.published)
-    if (file.extension() == ".glb") fmt::print("model    {}\n", file.string());
+    if (file.filename() == "model.glb") fmt::print("model    {}\n", file.string());
   fmt::print("report   {}\n", report.string());
   const std::string overlap = metric_text(result, "align", "overlap_percent");
   if (!overlap.empty()) fmt::print("overlap  {} %\n", overlap);

@@ -8,6 +8,7 @@
 #include "drape/report/readable_number.hpp"
 #include "html_text.hpp"
 #include "page_parts.hpp"
+#include "page_script.hpp"
 #include "page_style.hpp"
 
 namespace drape::report {
@@ -30,15 +31,17 @@ std::string title_of(const RunPage& page) {
   return page.title.empty() ? "Run without a name" : escaped(page.title);
 }
 
-std::string head(const RunPage& page) {
+// `script`: by what the policy names the page's script; empty: it has none.
+std::string head(const RunPage& page, const std::string& script) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
       "<meta name=\"color-scheme\" content=\"light dark\" />\n"
       // The browser itself then refuses whatever is not in this file.
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
-      "'unsafe-inline'\" />\n<title>{} \u00b7 {}</title>\n<style>{}</style>\n</head>\n",
-      title_of(page), word(page.status), page_style());
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data: blob:; "
+      "style-src 'unsafe-inline'{}\" />\n<title>{} \u00b7 {}</title>\n<style>{}</style>\n</head>\n",
+      script.empty() ? std::string() : "; connect-src blob:; script-src " + script, title_of(page),
+      word(page.status), page_style());
 }
 
 std::string navigation(const RunPage& page) {
@@ -81,8 +84,17 @@ std::string facts(const RunPage& page) {
   return text;
 }
 
-// The title, how the run ended, and what came of it. A view of the model in three dimensions belongs here
-// too, between the numbers and the pictures.
+// The model in three dimensions, which the script fills in, and what it needs.
+std::string model_view(const ModelView& view) {
+  return "<div id=\"view\" class=\"view\"><noscript><p class=\"note\">Without scripts the model cannot be "
+         "turned; the pictures show it from all sides.</p></noscript></div>\n<script type=\"application/json\" "
+         "id=\"page-data\">" +
+         json_in_script(view.data_json) +
+         "</script>\n<script type=\"application/octet-stream\" id=\"model-bytes\">" + base64(view.glb_bytes) +
+         "</script>\n";
+}
+
+// The title, how the run ended, and what came of it.
 std::string result(const RunPage& page) {
   return fmt::format(
              "<section class=\"card\" id=\"result\">\n<p class=\"eyebrow\">Run report</p>\n<div "
@@ -90,7 +102,7 @@ std::string result(const RunPage& page) {
              title_of(page), status_pill(page.status), facts(page)) +
          note(page.status == RunStatus::failed ? "Why it failed" : "Why it needs review", page.reasons,
               page.status == RunStatus::failed) +
-         number_tiles(page.numbers) + picture_grid(page.pictures, "result", true) + "</section>\n";
+         number_tiles(page.numbers) + (page.view ? model_view(*page.view) : "") + picture_grid(page.pictures, "result", true) + "</section>\n";
 }
 
 std::string times(const RunPage& page) {
@@ -136,14 +148,17 @@ std::string provenance(const RunPage& page) {
 }  // namespace
 
 std::string render_page(const RunPage& page) {
-  std::string text = head(page);
+  const ScriptElement script = page.view ? script_element(run_page_script()) : ScriptElement();
+  std::string text = head(page, script.policy_source);
   text += "<body>\n<a class=\"skip\" href=\"#result\">Skip to the result</a>\n<div class=\"frame\">\n";
   text += navigation(page) + "<main>\n" + result(page);
+  // The script fills it in where there is something to put right.
+  if (page.view) text += "<section class=\"card\" id=\"mend\" hidden=\"hidden\"></section>\n";
   if (!page.stages.empty()) text += times(page);
   for (std::size_t i = 0; i < page.stages.size(); ++i) text += stage_section(page.stages[i], i + 1);
   text += provenance(page);
   text += "<footer>Made by drape. Everything on this page is in this one file.</footer>\n";
-  return text + "</main>\n</div>\n</body>\n</html>\n";
+  return text + "</main>\n</div>\n" + script.html + "</body>\n</html>\n";
 }
 
 }  // namespace drape::report

@@ -48,11 +48,11 @@ std::string figure(const Picture& picture, const std::string& id) {
   // back.
   return fmt::format(
       "<div class=\"slot{0}\" id=\"{1}-back\"><figure id=\"{1}\"><a class=\"plate\" href=\"#{1}\" "
-      "title=\"Show larger\"><img src=\"data:{2};base64,{3}\" width=\"{4}\" height=\"{5}\" alt=\"{6}\" "
+      "title=\"Show larger\"><img src=\"data:{2};base64,{3}\" width=\"{4}\" height=\"{5}\" alt=\"{6}\"{8} "
       "/></a><figcaption>{7}</figcaption><a class=\"close\" href=\"#{1}-back\">Close</a></figure></div>\n",
       slot_size(*encoded), id, encoded->media_type, base64(picture.png_or_jpeg_bytes), encoded->width,
       encoded->height, escaped(picture.alt_text.empty() ? picture.title : picture.alt_text),
-      caption_of(picture));
+      caption_of(picture), picture.key.empty() ? "" : fmt::format(" data-key=\"{}\"", escaped(picture.key)));
 }
 
 std::string time_row(const StageSection& stage, std::size_t index, double longest) {

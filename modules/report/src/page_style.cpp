@@ -10,7 +10,7 @@ std::string_view page_style() {
   --accent: #0a6570; --accent-soft: #e0f0f1; --plate: #eceef1; --code: #f1f3f6;
   --ok: #17693f; --ok-soft: #e0f3e8; --review: #7a4d00; --review-soft: #fdf0d5; --review-line: #e8b34b;
   --failed: #a3211a; --failed-soft: #fce7e5; --failed-line: #e2857f; --bar: #2f9aa6; --bar-old: #b4bfca;
-  --shadow: 0 1px 2px rgba(20, 30, 45, .06), 0 4px 14px rgba(20, 30, 45, .05);
+  --stage: #eef0f3; --shadow: 0 1px 2px rgba(20, 30, 45, .06), 0 4px 14px rgba(20, 30, 45, .05);
 }
 @media (prefers-color-scheme: dark) {
   :root {
@@ -18,7 +18,7 @@ std::string_view page_style() {
     --accent: #5cc8d2; --accent-soft: #16343a; --plate: #232a33; --code: #141920;
     --ok: #6fd6a0; --ok-soft: #15332a; --review: #f3c367; --review-soft: #362a12; --review-line: #7a5c1d;
     --failed: #ff9d95; --failed-soft: #3b1c1c; --failed-line: #7f3733; --bar: #3aa7b3; --bar-old: #47525f;
-    --shadow: none;
+    --stage: #20262d; --shadow: none;
   }
   img { filter: brightness(.92); }
 }
@@ -76,6 +76,46 @@ nav .name { flex: 1; min-width: 0; overflow-wrap: anywhere; }
 .tiles .unit { font-size: 1rem; font-weight: 400; color: var(--soft); letter-spacing: 0; }
 .tiles .meaning { color: var(--soft); font-size: .82rem; line-height: 1.4; }
 
+.view { margin-top: 1.4rem; }
+.stage { position: relative; height: clamp(20rem, 58vh, 38rem); border: 1px solid var(--line); border-radius: 11px; overflow: hidden; background: var(--stage); }
+.stage canvas { display: block; width: 100%; height: 100%; touch-action: none; cursor: grab; }
+.stage canvas:active { cursor: grabbing; }
+.stage canvas:focus-visible { outline-offset: -3px; }
+.tools { display: flex; flex-wrap: wrap; gap: .6rem; margin-top: .8rem; }
+.choice { display: inline-flex; flex-wrap: wrap; border: 1px solid var(--line); border-radius: 9px; overflow: hidden; }
+button { font: inherit; font-size: .9rem; color: var(--ink); background: var(--card); border: 1px solid var(--line); border-radius: 9px; padding: .35rem .8rem; cursor: pointer; }
+button:hover { background: var(--accent-soft); color: var(--accent); }
+button[aria-pressed=true] { background: var(--accent); color: var(--card); }
+button:disabled { opacity: .45; cursor: default; }
+.choice button { border: 0; border-radius: 0; border-right: 1px solid var(--line); }
+.choice button:last-child { border-right: 0; }
+.lights { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 15rem), 1fr)); gap: .5rem 1.5rem; margin-top: .8rem; }
+.lights[hidden] { display: none; }
+.slider { display: grid; grid-template-columns: auto minmax(4rem, 1fr) 3.6rem; gap: .7rem; align-items: center; font-size: .9rem; color: var(--soft); }
+.slider input { width: 100%; accent-color: var(--accent); }
+.slider output { text-align: right; font-variant-numeric: tabular-nums; color: var(--ink); }
+.legend { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem 1.3rem; margin-top: .8rem; font-size: .9rem; color: var(--soft); }
+.legend:empty { display: none; }
+.chip { display: inline-block; width: .85rem; height: .85rem; border-radius: 3px; margin-right: .5rem; vertical-align: -.1rem; }
+.stage.small { height: clamp(15rem, 40vh, 24rem); }
+.middle { position: absolute; left: 50%; top: 50%; width: 9px; height: 9px; margin: -5px; border: 1px solid var(--soft); border-radius: 50%; pointer-events: none; }
+#mend .choice { max-width: 100%; }
+.hint { margin: .8rem 0; color: var(--soft); max-width: 46rem; }
+.bench { display: grid; grid-template-columns: minmax(0, 3fr) minmax(0, 2fr); gap: 1.2rem; align-items: start; }
+.pad { width: 100%; display: block; border-radius: 9px; border: 1px solid var(--line); background: var(--plate); cursor: crosshair; touch-action: none; }
+.panel { display: grid; gap: .8rem; justify-items: start; }
+.panel > .slider, .panel > .stage, .panel > .poses { width: 100%; }
+.panel .slider { grid-template-columns: minmax(4.5rem, auto) minmax(3rem, 1fr) 3.4rem; }
+.poses { display: grid; grid-template-columns: repeat(auto-fill, minmax(7.5rem, 1fr)); gap: .6rem; }
+.poses:empty { display: none; }
+.poses button { padding: .35rem; display: grid; gap: .3rem; font-size: .82rem; }
+.poses img { width: 100%; border-radius: 5px; }
+.check { display: inline-flex; gap: .5rem; align-items: center; font-size: .93rem; }
+.check input { accent-color: var(--accent); width: 1.1rem; height: 1.1rem; }
+.outcome pre { max-height: 16rem; overflow: auto; }
+.outcome .meta { margin: .9rem 0 .5rem; }
+button.main { background: var(--accent); color: var(--card); font-weight: 650; }
+button.main:hover:not(:disabled) { filter: brightness(1.1); color: var(--card); }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 17rem), 1fr)); gap: 1.2rem; }
 .pictures.large { grid-template-columns: repeat(auto-fit, minmax(min(100%, 16rem), 1fr)); margin-top: 1.2rem; }
 .slot { min-width: 0; }
@@ -165,6 +205,8 @@ footer { color: var(--soft); font-size: .85rem; text-align: center; padding-top:
   .times .pill { padding: .1rem .5rem; font-size: .8rem; }
   .numbers.bare { width: 100%; }
   .slot.double { grid-column: auto; }
+  .bench { grid-template-columns: minmax(0, 1fr); }
+  .stage { height: 64vw; min-height: 17rem; }
   .numbers .figure { padding-right: 0; }
   .numbers .meaning { grid-column: 1 / -1; width: auto; font-size: .85rem; }
   .head .cost { margin-left: 0; flex-basis: 100%; }

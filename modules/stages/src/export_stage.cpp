@@ -8,6 +8,9 @@
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/io/records.hpp"
+#include "drape/meshing/simplify.hpp"
+#include "drape/report/contact_sheet.hpp"
+#include "gltf_axes.hpp"
 #include "rows.hpp"
 
 namespace drape::stages {
@@ -28,6 +31,7 @@ struct ExportOptions {
   ExportUnits units = ExportUnits::input;
   bool unlit = true;
   TextureFormat glb_textures = TextureFormat::png;
+  int web_triangles = 30'000;
 };
 
 void describe(Binder& b, ExportOptions& o) {
@@ -45,6 +49,9 @@ void describe(Binder& b, ExportOptions& o) {
   b.flag("unlit", o.unlit, "GLB: viewers show the photo's own light and add none (KHR_materials_unlit)");
   b.choice("glb_textures", o.glb_textures, {{"png", TextureFormat::png}, {"jpeg", TextureFormat::jpeg}},
            "GLB: PNG keeps every texel, JPEG is smaller");
+  b.number("web_triangles", o.web_triangles, {0, 10e6},
+           "write model_web.glb, a light copy of about so many triangles and with JPEG textures of 2048 pixels "
+           "at the most: the report shows it; 0: none, and the report has no view in three dimensions");
 }
 
 // Without photos the model is the mesh itself, in one flat material that leaves its own colours to it.
@@ -65,26 +72,42 @@ TexturedMesh load_model(const pipeline::StageRun& run) {
   return model;
 }
 
-// glTF is y up: the input's up axis is turned onto +y.
-Eigen::Matrix3d y_up_from(char up) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  if (up == 'z') rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  if (up == 'x') rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  return rotation;
+// From the workspace's frame to glTF's: y up, about the middle of the model.
+struct GltfFrame {
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // y up too, in the world
+};
+
+GltfFrame gltf_frame(const TexturedMesh& model, const io::WorkspaceFrame& frame, char up) {
+  const BoundingBox box = bounding_box(model.mesh.vertices);
+  const Eigen::Vector3d origin = box.isEmpty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(box.center());
+  const Eigen::Matrix3d rotation = y_up_from(up);
+  GltfFrame result;
+  result.transform.linear() = rotation;
+  result.transform.translation() = -(rotation * origin);
+  result.origin = rotation * (origin + frame.world_offset_m);
+  return result;
+}
+
+void write_web_copy(const ExportOptions& options, const TexturedMesh& model, const GltfFrame& frame,
+                    pipeline::StageRun& run) {
+  constexpr int most_side_px = 2048;
+  TexturedMesh light = meshing::simplified(model, static_cast<std::size_t>(options.web_triangles));
+  for (Material& material : light.materials)
+    if (!material.image.empty())
+      material.image = report::fitted(material.image, most_side_px, most_side_px);
+  io::write_glb(run.output("model_web.glb"), light, frame.transform, frame.origin,
+                {.unlit = options.unlit, .jpeg_textures = true, .jpeg_quality = 85});
 }
 
 void write_gltf(const ExportOptions& options, const TexturedMesh& model, const io::WorkspaceFrame& frame,
                 pipeline::StageRun& run) {
-  const BoundingBox box = bounding_box(model.mesh.vertices);
-  const Eigen::Vector3d origin = box.isEmpty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(box.center());
-  const Eigen::Matrix3d rotation = y_up_from(run.input().up);
-  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  transform.linear() = rotation;
-  transform.translation() = -(rotation * origin);
+  const GltfFrame gltf = gltf_frame(model, frame, run.input().up);
   io::GlbOptions glb;
   glb.unlit = options.unlit;
   glb.jpeg_textures = options.glb_textures == TextureFormat::jpeg;
-  io::write_glb(run.output("model.glb"), model, transform, rotation * (origin + frame.world_offset_m), glb);
+  if (options.glb) io::write_glb(run.output("model.glb"), model, gltf.transform, gltf.origin, glb);
+  if (options.web_triangles > 0) write_web_copy(options, model, gltf, run);
 }
 
 io::WorkspaceFrame output_frame(const ExportOptions& options, io::WorkspaceFrame frame) {
@@ -154,7 +177,7 @@ void write_models(const ExportOptions& options, const TexturedMesh& moved, pipel
 void run(const ExportOptions& options, pipeline::StageRun& run) {
   const TexturedMesh model = load_model(run);
   const io::WorkspaceFrame frame = io::read_holes(run.artifact("fill", "holes.json")).frame;
-  if (options.glb) write_gltf(options, model, frame, run);
+  write_gltf(options, model, frame, run);
   run.progress().update(0.5);
   const io::WorkspaceFrame target = output_frame(options, frame);
   write_models(options, in_output_frame(model, target), run);
@@ -172,6 +195,7 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
 pipeline::Stage export_stage() {
   pipeline::Stage stage;
   stage.name = "export";
+  stage.version = 2;
   stage.summary = "Writes the model in the formats that viewers open; they are copied to `output`.";
   stage.input_parts = {"up"};
   stage.reads = {{"fill", "mesh_simplified.ply"},
@@ -179,7 +203,7 @@ pipeline::Stage export_stage() {
                  {"texture", "model.ply"},
                  {"texture", "textures/*.png"},
                  {"align", "cameras.json"}};
-  stage.writes = {"model.glb",    "model.obj",    "model.mtl",        "model.ply",
+  stage.writes = {"model.glb",    "model_web.glb", "model.obj",    "model.mtl",        "model.ply",
                   "model_*.png",  "cameras.json", "model_colors.ply", "model.stl",
                   "colmap/*.txt", "model.mlp",    "metashape.xml"};
   stage.applies = [](const pipeline::Input&) { return true; };

@@ -7,6 +7,8 @@
 #include "drape/base/files.hpp"
 #include "drape/report/page.hpp"
 #include "drape/report/readable_number.hpp"
+#include "page_data.hpp"
+#include "results.hpp"
 #include "stage_pictures.hpp"
 
 namespace drape::stages {
@@ -65,14 +67,21 @@ report::RunPage page_of(const pipeline::Config& config, const pipeline::RunResul
       if (metric.first == "overlap_percent" || metric.first == "seen_percent")
         page.numbers.push_back(to_number(metric));
   }
+  page.view = page_view(Results(config, result), result);
   // What a person wants to see first: the textured model, or the mesh where there is no photo, and the
   // overlays.
   const bool textured =
       std::any_of(page.stages.begin(), page.stages.end(),
                   [](const report::StageSection& section) { return section.name == "texture"; });
-  for (const report::StageSection& section : page.stages)
-    if (section.name == (textured ? "texture" : "fill") || section.name == "align")
-      page.pictures.insert(page.pictures.end(), section.pictures.begin(), section.pictures.end());
+  const bool one_photo = config.input.photos.size() == 1;
+  for (const report::StageSection& section : page.stages) {
+    if (section.name == (textured ? "texture" : "fill") && !section.pictures.empty())
+      page.pictures.push_back(section.pictures.front());
+    for (const report::Picture& picture : section.pictures)
+      if (picture.key.starts_with("overlay:") ||
+          (one_photo && (picture.key.starts_with("photo:") || picture.key.starts_with("stencil:"))))
+        page.pictures.push_back(picture);
+  }
   return page;
 }
 

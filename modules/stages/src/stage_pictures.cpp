@@ -2,16 +2,22 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "drape/base/files.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/io/records.hpp"
 #include "drape/io/scan_files.hpp"
+#include "drape/rendering/renderer.hpp"
 #include "drape/report/contact_sheet.hpp"
 #include "drape/report/overlay_picture.hpp"
+#include "drape/report/readable_number.hpp"
 #include "drape/report/scans_picture.hpp"
 #include "drape/report/turntable.hpp"
+#include "page_data.hpp"
+#include "results.hpp"
 #include "rows.hpp"
 
 namespace drape::stages {
@@ -19,10 +25,23 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int photo_side_px = 900;
+constexpr int candidate_side_px = 420;
 
-report::Picture picture(std::string title, std::string alt, std::string caption, const Image8& image) {
-  // Line drawings stay sharp as PNG, but photographs and renders are many times smaller as JPEG.
-  return {std::move(title), std::move(alt), std::move(caption), io::encode_image(image, "jpg", 88)};
+report::Picture picture(std::string title, std::string alt, std::string caption, const Image8& image,
+                        std::string key = {}) {
+  return {std::move(title), std::move(alt), std::move(caption), io::encode_image(image, "jpg", 88),
+          std::move(key)};
+}
+
+// Every n-th pixel: areas of one colour each keep their exact colours, and few bytes as PNG.
+Image8 thinned(const Image8& image, int side_px) {
+  const int step = std::max(1, (std::max(image.width(), image.height()) + side_px - 1) / side_px);
+  Image8 result(image.width() / step, image.height() / step, image.channels());
+  for (int y = 0; y < result.height(); ++y)
+    for (int x = 0; x < result.width(); ++x)
+      for (int c = 0; c < image.channels(); ++c)
+        result.at(x, y, c) = image.at(x * step + step / 2, y * step + step / 2, c);
+  return result;
 }
 
 report::ViewStyle views_for(const pipeline::Config& config) {
@@ -32,26 +51,6 @@ report::ViewStyle views_for(const pipeline::Config& config) {
                                       : Eigen::Vector3d::UnitZ();
   return style;
 }
-
-// Paths of results within a finished run.
-class Results {
- public:
-  Results(const pipeline::Config& config, const pipeline::RunResult& result) : config_(config) {
-    for (std::size_t i = 0; i < result.record.stages.size(); ++i)
-      folders_.emplace_back(result.record.stages[i].stage,
-                            result.folder / fmt::format("{}-{}", i + 1, result.record.stages[i].stage));
-  }
-  [[nodiscard]] fs::path file(const std::string& stage, const std::string& name) const {
-    for (const auto& [known, folder] : folders_)
-      if (known == stage) return folder / name;
-    return {};
-  }
-  [[nodiscard]] const pipeline::Config& config() const { return config_; }
-
- private:
-  const pipeline::Config& config_;
-  std::vector<std::pair<std::string, fs::path>> folders_;
-};
 
 std::vector<report::Picture> scans_together(const Results& results) {
   const io::PosesRecord poses = io::read_poses(results.file("register", "poses.json"));
@@ -100,30 +99,96 @@ std::vector<report::Picture> segments_of_photos(const Results& results) {
   const auto& photos = results.config().input.photos;
   for (std::size_t i = 0; i < photos.size(); ++i) {
     const std::string name = photos[i].image.filename().string();
-    const auto shown = [&](const fs::path& file) {
-      return report::fitted(io::read_photo(file).rgb, photo_side_px, photo_side_px);
-    };
-    pictures.push_back(picture("Photo " + name, "The photo", "", shown(photos[i].image)));
-    pictures.push_back(picture("Segments of " + name, "The photo's segments in distinct colours",
-                               "Bright: the segments that were chosen as the object.",
-                               shown(results.file("segment", three_digits(i) + "/segments.png"))));
-    pictures.push_back(picture("Stencil of " + name, "White where the object was found, black elsewhere",
-                               "White: object. Black: background. Grey: unknown.",
-                               shown(results.file("segment", three_digits(i) + "/stencil.png"))));
+    const std::string number = three_digits(i);
+    pictures.push_back(picture("Photo " + name, "The photo", "",
+                               report::fitted(io::read_photo(photos[i].image).rgb, photo_side_px, photo_side_px),
+                               "photo:" + number));
+    pictures.push_back(
+        {"Segments of " + name, "The photo's segments in distinct colours",
+         "Bright: the segments that were chosen as the object.",
+         io::encode_image(
+             thinned(io::read_photo(results.file("segment", number + "/segments.png")).rgb, photo_side_px), "png"),
+         "segments:" + number});
+    pictures.push_back(
+        {"Stencil of " + name, "White where the object was found, black elsewhere",
+         "White: object. Black: background. Grey: unknown.",
+         io::encode_image(
+             report::fitted(io::read_photo(results.file("segment", number + "/stencil.png")).rgb, photo_side_px,
+                            photo_side_px),
+             "png"),
+         "stencil:" + number});
   }
   return pictures;
+}
+
+// The poses that the aligner weighed, where a person may have to choose.
+void add_candidates(const io::CameraRecord& record, const std::string& number, const Image8& photo,
+                    const Image8& stencil, const TriangleMesh& mesh, std::vector<report::Picture>& pictures) {
+  if (record.verdict == io::Verdict::accept || record.candidates.size() < 2) return;
+  rendering::Renderer renderer(mesh);
+  for (std::size_t k = 0; k < std::min(record.candidates.size(), most_candidates); ++k) {
+    const io::CameraCandidate& candidate = record.candidates[k];
+    const auto camera = camera_from_matrix(candidate.P, photo.width(), photo.height());
+    if (!camera) continue;
+    pictures.push_back(
+        picture(fmt::format("Candidate {} of {}", k + 1, record.photo),
+                fmt::format("The photo with the outline of the model in pose {}", k + 1),
+                fmt::format("{} % overlap{}", report::readable_value(candidate.overlap_percent),
+                            k == 0 ? "; the one that was taken" : ""),
+                report::fitted(report::overlay_picture(photo, stencil, renderer.stencil(*camera)),
+                               candidate_side_px, candidate_side_px),
+                fmt::format("candidate:{}:{}", number, k)));
+  }
 }
 
 std::vector<report::Picture> overlays(const Results& results) {
   std::vector<report::Picture> pictures;
   const auto& photos = results.config().input.photos;
-  for (std::size_t i = 0; i < photos.size(); ++i)
+  const io::CamerasRecord cameras = io::read_cameras(results.file("align", "cameras.json"));
+  const bool any_to_choose =
+      std::any_of(cameras.cameras.begin(), cameras.cameras.end(),
+                  [](const io::CameraRecord& camera) { return camera.verdict != io::Verdict::accept; });
+  TriangleMesh mesh;
+  if (any_to_choose) mesh = io::read_mesh(results.file("fill", "mesh.ply"));
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    const std::string number = three_digits(i);
     pictures.push_back(
         picture("Overlay on " + photos[i].image.filename().string(),
                 "The photo with the outlines of the stencil and of the aligned model",
                 std::string(report::overlay_caption),
-                report::fitted(io::read_photo(results.file("align", three_digits(i) + "/overlay.png")).rgb,
-                               photo_side_px, photo_side_px)));
+                report::fitted(io::read_photo(results.file("align", number + "/overlay.png")).rgb, photo_side_px,
+                               photo_side_px),
+                "overlay:" + number));
+    if (!any_to_choose || i >= cameras.cameras.size()) continue;
+    const Image8 photo = io::read_photo(photos[i].image).rgb;
+    add_candidates(cameras.cameras[i], number, photo,
+                   io::read_stencil(results.file("align", number + "/stencil.png"), photo.width(), photo.height()),
+                   mesh, pictures);
+  }
+  return pictures;
+}
+
+std::vector<report::Picture> coverage(const Results& results) {
+  std::vector<report::Picture> pictures = model_from_sides(results);
+  const auto& photos = results.config().input.photos;
+  const fs::path folder = results.file("texture", "textures");
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    const fs::path file = folder / (three_digits(i) + "_coverage.png");
+    if (!fs::exists(file)) continue;
+    pictures.push_back(picture("Coverage of " + photos[i].image.filename().string(),
+                               "The photo, dim where nothing of it is on the model",
+                               "Bright: pixels that are on the model as they were. Orange: replaced by colours "
+                               "grown from beside. Dim: not used.",
+                               report::fitted(io::read_photo(file).rgb, photo_side_px, photo_side_px),
+                               "coverage:" + three_digits(i) + "_color"));
+  }
+  for (std::size_t page = 0; fs::exists(folder / ("atlas_" + three_digits(page) + "_coverage.png")); ++page) {
+    const Image8 image = io::read_photo(folder / ("atlas_" + three_digits(page) + "_coverage.png")).rgb;
+    pictures.push_back({fmt::format("Atlas page {}", page + 1), "The atlas with one colour for each photo",
+                        "One colour for each photo. Orange: grown. Black: nothing.",
+                        io::encode_image(thinned(image, photo_side_px), "png"),
+                        "coverage:atlas_" + three_digits(page) + "_color"});
+  }
   return pictures;
 }
 
@@ -136,7 +201,7 @@ std::vector<report::Picture> stage_pictures(const std::string& stage, const pipe
   if (stage == "mesh" || stage == "fill") return mesh_from_sides(results, stage);
   if (stage == "segment") return segments_of_photos(results);
   if (stage == "align") return overlays(results);
-  if (stage == "texture") return model_from_sides(results);
+  if (stage == "texture") return coverage(results);
   return {};
 }
 
