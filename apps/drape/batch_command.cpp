@@ -15,6 +15,7 @@
 #include "drape/pipeline/fixes.hpp"
 #include "drape/pipeline/manifest.hpp"
 #include "drape/pipeline/slurm.hpp"
+#include "drape/stages/batch_report.hpp"
 #include "drape/stages/run_report.hpp"
 #include "drape/stages/stage_table.hpp"
 
@@ -72,9 +73,10 @@ int threads_each(const BatchArguments& arguments) {
 }
 
 // A page for each of thousands of objects takes longer than small objects themselves: where nothing was
-// wrong, `drape run` or `drape report` makes it when it is wanted.
+// wrong, `drape report` makes it when it is wanted. One that is there must not tell what is no longer so.
 void report_reviews(const pipeline::Config& config, const pipeline::RunResult& result) {
-  if (result.record.status == "review") stages::write_run_report(config, result, versions());
+  if (result.record.status == "review" || fs::exists(result.folder / "report.html"))
+    stages::write_run_report(config, result, versions());
 }
 
 void print_result(const ObjectResult& result, std::size_t done, std::size_t count) {
@@ -92,6 +94,7 @@ int print_summary(const Batch& batch, const BatchSummary& summary, std::size_t m
   if (summary.failed + summary.review > most_lines)
     fmt::print("... and {} more in {}\n", summary.failed + summary.review - most_lines,
                (batch.folder() / "summary.json").string());
+  fmt::print("report   {}\n", stages::write_batch_report(batch, summary).string());
   fmt::print("ok {}  review {}  failed {}  missing {}  of {}\n", summary.ok, summary.review, summary.failed,
              summary.missing, summary.objects);
   return summary.complete() ? 0 : partly_failed;

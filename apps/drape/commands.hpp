@@ -46,6 +46,13 @@ struct GcArguments {
 };
 void gc_command(const GcArguments& arguments);
 
+struct ReportArguments {
+  std::string what;  // a run, as select_run names it; a sweep's configuration; a batch's manifest or folder
+  std::optional<std::filesystem::path> workspace;
+};
+/// Writes the page anew from what is there; runs nothing.
+void report_command(const ReportArguments& arguments);
+
 /// Runs are named as select_run says.
 struct DiffArguments {
   std::string a;

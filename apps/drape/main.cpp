@@ -93,6 +93,7 @@ struct CommandLine {
   SegmentArguments segment;
   GcArguments gc;
   DiffArguments diff;
+  ReportArguments report;
   AdoptArguments adopt;
   MakeArguments make;
   InfoArguments info;
@@ -116,6 +117,7 @@ struct CommandLine {
     add_make();
     add_batch_commands(app, batch, action, stop_requested);
     add_gc();
+    add_report();
     add_diff();
     add_adopt();
     add_reference();
@@ -274,6 +276,26 @@ struct CommandLine {
     sub->callback([this] {
       action = [this] {
         gc_command(gc);
+        return 0;
+      };
+    });
+  }
+
+  void add_report() {
+    CLI::App* sub =
+        command("report", "Write the page of a run, a sweep or a batch anew, without running anything",
+                "drape report teapot --workspace config");
+    sub->add_option("what", report.what,
+                    "A run (its name, its folder, or its configuration), the configuration of a sweep, or "
+                    "the manifest "
+                    "or folder of a batch")
+        ->required()
+        ->type_name("RUN|SWEEP|BATCH");
+    sub->add_option("--workspace", report.workspace, "Where a run that is given by name lies; default: here")
+        ->type_name("DIR");
+    sub->callback([this] {
+      action = [this] {
+        report_command(report);
         return 0;
       };
     });

@@ -47,8 +47,9 @@ ObjectFixes read_entry(const ConfigNode& node, const fs::path& folder) {
   check_map(fixes.set, "set");
   for (ConfigNode& photo : fixes.photos.items) {
     check_map(photo, "a photo");
-    if (ConfigNode* mask = find(photo, "mask"))
-      mask->text = (folder / mask->text).lexically_normal().string();
+    for (const char* key : {"mask", "scribbles", "background"})
+      if (ConfigNode* picture = find(photo, key))
+        picture->text = (folder / picture->text).lexically_normal().string();
   }
   return fixes;
 }

@@ -151,7 +151,40 @@ PhotoCamera read_photo_camera(const ConfigNode& node, const std::string& path, I
     std::copy(k.begin(), k.end(), camera.K->begin());
   }
   camera.distortion = reader.numbers("distortion", 4, 5);
+  if (const auto initial = reader.numbers("initial", 12, 12); !initial.empty()) {
+    camera.initial.emplace();
+    std::copy(initial.begin(), initial.end(), camera.initial->begin());
+  }
+  const auto points = reader.numbers("points", 20, 5000);
+  if (points.size() % 5 != 0)
+    reader.wrong(*reader.find("points"), "points", "must be five numbers for each pair");
+  for (std::size_t i = 0; i + 4 < points.size(); i += 5)
+    camera.points.push_back({points[i], points[i + 1], points[i + 2], points[i + 3], points[i + 4]});
+  if (camera.initial && !camera.points.empty())
+    reader.wrong(*reader.find("points"), "points", "stand beside initial; leave one of them out");
   return camera;
+}
+
+PhotoStroke read_stroke(const ConfigNode& node, const std::string& path, InputProblems& problems) {
+  MapReader reader(node, path, stroke_keys(), problems);
+  PhotoStroke stroke;
+  const ConfigNode* kind = reader.find("is");
+  if (kind == nullptr || (kind->text != "object" && kind->text != "background"))
+    problems.wrong.push_back(fmt::format("{}: {}.is: must be object or background", node.where.text(), path));
+  else
+    stroke.object = kind->text == "object";
+  if (const auto width = reader.numbers("width_px", 1, 1); !width.empty()) {
+    stroke.width_px = width[0];
+    if (!(width[0] > 0)) reader.wrong(*reader.find("width_px"), "width_px", "must be more than 0");
+  }
+  const auto points = reader.numbers("points_px", 2, 100'000);
+  if (reader.find("points_px") == nullptr)
+    problems.wrong.push_back(fmt::format("{}: {}: has no points_px", node.where.text(), path));
+  if (points.size() % 2 != 0)
+    reader.wrong(*reader.find("points_px"), "points_px", "must be pairs of x and y");
+  for (std::size_t i = 0; i + 1 < points.size(); i += 2)
+    stroke.points_px.push_back({points[i], points[i + 1]});
+  return stroke;
 }
 
 PhotoInput read_photo_input(const ConfigNode& node, const std::string& path, const fs::path& folder,
@@ -181,6 +214,15 @@ PhotoInput read_photo_input(const ConfigNode& node, const std::string& path, con
   }
   if (const auto click = reader.numbers("click_px", 2, 2); !click.empty())
     photo.click_px = {click[0], click[1]};
+  if (const ConfigNode* strokes = reader.find("strokes"); strokes != nullptr) {
+    if (strokes->kind != ConfigNode::Kind::sequence)
+      reader.wrong(*strokes, "strokes", "must be a list");
+    else
+      for (std::size_t i = 0; i < strokes->items.size(); ++i)
+        photo.strokes.push_back(
+            read_stroke(strokes->items[i], fmt::format("{}.strokes[{}]", path, i), problems));
+  }
+  photo.segments = reader.numbers("segments", 1, 100'000);
   if (const ConfigNode* camera = reader.find("camera"); camera != nullptr)
     photo.camera = read_photo_camera(*camera, path + ".camera", problems);
   return photo;
@@ -364,7 +406,10 @@ const std::vector<InputKey>& photo_keys() {
       {"background", "a photo of the same view without the object, by the same camera"},
       {"box_px", "x, y, width, height of a box around the object, in upright pixels"},
       {"click_px", "x, y of a point inside the object, in upright pixels"},
-      {"camera", "what is known of the camera: focal_px or K, distortion"},
+      {"strokes", "lines drawn over the object and over the background"},
+      {"segments", "labels of segments.json: exactly these are the object in this photo"},
+      {"camera",
+       "what is known of the camera: focal_px or K, distortion; and about where it is: initial or points"},
   };
   return keys;
 }
@@ -374,6 +419,23 @@ const std::vector<InputKey>& photo_camera_keys() {
       {"focal_px", "focal length in pixels of the upright photo"},
       {"K", "nine numbers of the 3x3 camera matrix, row by row"},
       {"distortion", "k1, k2, p1, p2 and perhaps k3, as OpenCV defines them"},
+      {"initial",
+       "twelve numbers of a projection from the input's coordinates to upright pixels, row by row: only "
+       "poses near it "
+       "are tried"},
+      {"points",
+       "four or more pairs of a place in the photo and on the object, five numbers each: x, y in upright "
+       "pixels and X, "
+       "Y, Z in the input's coordinates; only poses near the one that they tell are tried"},
+  };
+  return keys;
+}
+
+const std::vector<InputKey>& stroke_keys() {
+  static const std::vector<InputKey> keys = {
+      {"is", "object or background"},
+      {"width_px", "width of the line; default: 1"},
+      {"points_px", "x and y of its corners in upright pixels, one after the other"},
   };
   return keys;
 }

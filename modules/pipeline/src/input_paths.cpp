@@ -29,7 +29,7 @@ void make_input_paths_absolute(ConfigNode& root, const std::filesystem::path& fo
   for (ConfigNode& photo : photos->items) {
     if (photo.kind == ConfigNode::Kind::scalar) make_absolute(photo, folder);
     if (photo.kind != ConfigNode::Kind::map) continue;
-    for (const char* key : {"image", "mask"})
+    for (const char* key : {"image", "mask", "scribbles", "background"})
       if (ConfigNode* node = member(photo, key)) make_absolute(*node, folder);
   }
 }

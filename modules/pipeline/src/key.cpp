@@ -47,12 +47,22 @@ void add_photo_part(Parts& parts, const std::string& part, const PhotoInput& pho
     parts.add_file(name + ".background", photo.background);
     if (photo.box_px) parts.add_numbers(name + ".box_px", *photo.box_px);
     if (photo.click_px) parts.add_numbers(name + ".click_px", *photo.click_px);
+    for (std::size_t i = 0; i < photo.strokes.size(); ++i) {
+      const PhotoStroke& stroke = photo.strokes[i];
+      std::vector<double> numbers{stroke.object ? 1.0 : 0.0, stroke.width_px};
+      for (const auto& point : stroke.points_px) numbers.insert(numbers.end(), point.begin(), point.end());
+      parts.add_numbers(fmt::format("{}.strokes[{}]", name, i), numbers);
+    }
+    if (!photo.segments.empty()) parts.add_numbers(name + ".segments", photo.segments);
   }
   if (part == "photo_cameras") {
     if (photo.camera.focal_px) parts.add(name + ".camera.focal_px", OptionValue(*photo.camera.focal_px));
     if (photo.camera.K) parts.add_numbers(name + ".camera.K", *photo.camera.K);
     if (!photo.camera.distortion.empty())
       parts.add_numbers(name + ".camera.distortion", photo.camera.distortion);
+    if (photo.camera.initial) parts.add_numbers(name + ".camera.initial", *photo.camera.initial);
+    for (std::size_t i = 0; i < photo.camera.points.size(); ++i)
+      parts.add_numbers(fmt::format("{}.camera.points[{}]", name, i), photo.camera.points[i]);
   }
 }
 

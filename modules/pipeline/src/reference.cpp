@@ -84,6 +84,7 @@ std::string reference_page(std::span<const Stage> table) {
   page += "Each of `scans`, where it is no plain name:\n\n" + key_table("", scan_keys());
   page += "`depth`:\n\n" + key_table("", depth_keys());
   page += "Each of `photos`:\n\n" + key_table("", photo_keys());
+  page += "Each of a photo's `strokes`:\n\n" + key_table("", stroke_keys());
   page += "A photo's `camera`:\n\n" + key_table("", photo_camera_keys());
   for (const Stage& stage : table) page += stage_section(stage);
   while (page.size() > 1 && page[page.size() - 2] == '\n') page.pop_back();

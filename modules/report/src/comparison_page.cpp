@@ -4,7 +4,6 @@
 
 #include "html_text.hpp"
 #include "page_parts.hpp"
-#include "page_style.hpp"
 
 namespace drape::report {
 namespace {
@@ -60,12 +59,8 @@ std::string pictures_of(const ComparisonSection& section, std::size_t index) {
 }  // namespace
 
 std::string render_comparison(const ComparisonPage& page) {
-  std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta "
-      "charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\"/>\n<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<div class=\"frame "
-      "wide\">\n<main>\n",
-      escaped(page.title), page_style(), comparison_style);
+  std::string text =
+      page_head(page.title, comparison_style, "") + "<body>\n<div class=\"frame wide\">\n<main>\n";
   text += fmt::format(
       "<section class=\"card\"><p class=\"eyebrow\">{}</p><h1>{}</h1><p class=\"meta\">{}</p></section>\n",
       escaped(page.eyebrow), escaped(page.title), escaped(page.facts));

@@ -9,7 +9,6 @@
 #include "html_text.hpp"
 #include "page_parts.hpp"
 #include "page_script.hpp"
-#include "page_style.hpp"
 
 namespace drape::report {
 namespace {
@@ -29,19 +28,6 @@ std::string time_element(const std::string& iso) {
 
 std::string title_of(const RunPage& page) {
   return page.title.empty() ? "Run without a name" : escaped(page.title);
-}
-
-// `script`: by what the policy names the page's script; empty: it has none.
-std::string head(const RunPage& page, const std::string& script) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
-      "<meta name=\"color-scheme\" content=\"light dark\" />\n"
-      // The browser itself then refuses whatever is not in this file.
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data: blob:; "
-      "style-src 'unsafe-inline'{}\" />\n<title>{} \u00b7 {}</title>\n<style>{}</style>\n</head>\n",
-      script.empty() ? std::string() : "; connect-src blob:; script-src " + script, title_of(page),
-      word(page.status), page_style());
 }
 
 std::string navigation(const RunPage& page) {
@@ -87,7 +73,8 @@ std::string facts(const RunPage& page) {
 // The model in three dimensions, which the script fills in, and what it needs.
 std::string model_view(const ModelView& view) {
   return "<div id=\"view\" class=\"view\"><noscript><p class=\"note\">Without scripts the model cannot be "
-         "turned; the pictures show it from all sides.</p></noscript></div>\n<script type=\"application/json\" "
+         "turned; the pictures show it from all sides.</p></noscript></div>\n<script "
+         "type=\"application/json\" "
          "id=\"page-data\">" +
          json_in_script(view.data_json) +
          "</script>\n<script type=\"application/octet-stream\" id=\"model-bytes\">" + base64(view.glb_bytes) +
@@ -102,7 +89,8 @@ std::string result(const RunPage& page) {
              title_of(page), status_pill(page.status), facts(page)) +
          note(page.status == RunStatus::failed ? "Why it failed" : "Why it needs review", page.reasons,
               page.status == RunStatus::failed) +
-         number_tiles(page.numbers) + (page.view ? model_view(*page.view) : "") + picture_grid(page.pictures, "result", true) + "</section>\n";
+         number_tiles(page.numbers) + (page.view ? model_view(*page.view) : "") +
+         picture_grid(page.pictures, "result", true) + "</section>\n";
 }
 
 std::string times(const RunPage& page) {
@@ -149,7 +137,8 @@ std::string provenance(const RunPage& page) {
 
 std::string render_page(const RunPage& page) {
   const ScriptElement script = page.view ? script_element(run_page_script()) : ScriptElement();
-  std::string text = head(page, script.policy_source);
+  const std::string name = page.title.empty() ? "Run without a name" : page.title;
+  std::string text = page_head(name + " \u00b7 " + std::string(word(page.status)), "", script.policy_source);
   text += "<body>\n<a class=\"skip\" href=\"#result\">Skip to the result</a>\n<div class=\"frame\">\n";
   text += navigation(page) + "<main>\n" + result(page);
   // The script fills it in where there is something to put right.

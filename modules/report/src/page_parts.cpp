@@ -8,6 +8,7 @@
 #include "drape/report/readable_number.hpp"
 #include "encoded_picture.hpp"
 #include "html_text.hpp"
+#include "page_style.hpp"
 
 namespace drape::report {
 namespace {
@@ -67,6 +68,18 @@ std::string time_row(const StageSection& stage, std::size_t index, double longes
 }
 
 }  // namespace
+
+std::string page_head(std::string_view title, std::string_view style, const std::string& script_source) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
+      "<meta name=\"color-scheme\" content=\"light dark\" />\n"
+      // The browser itself then refuses whatever is not in this file.
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data: blob:; "
+      "style-src 'unsafe-inline'{}\" />\n<title>{}</title>\n<style>{}{}</style>\n</head>\n",
+      script_source.empty() ? std::string() : "; connect-src blob:; script-src " + script_source,
+      escaped(title), page_style(), style);
+}
 
 std::string_view status_class(RunStatus status) {
   return status == RunStatus::ok ? "ok" : status == RunStatus::review ? "review" : "failed";

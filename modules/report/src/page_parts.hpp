@@ -10,6 +10,11 @@
 
 namespace drape::report {
 
+/// From the document type to the end of <head>. `style` comes after that of all pages; `script_source`: by
+/// what the security policy names the page's one script; empty: it has none.
+[[nodiscard]] std::string page_head(std::string_view title, std::string_view style,
+                                    const std::string& script_source);
+
 [[nodiscard]] std::string status_pill(RunStatus status);
 [[nodiscard]] std::string status_pill(StageStatus status);
 /// The name of the state as a CSS class.

@@ -6,17 +6,20 @@
 #include "html_text.hpp"
 
 // The files' bytes, laid into the program by the assembler.
-#define DRAPE_EMBED(name, file)          \
-  asm(".pushsection .rodata\n"           \
-      ".global " #name "\n" #name ":\n"  \
-      ".incbin \"" file "\"\n"           \
-      ".global " #name "_end\n" #name    \
-      "_end:\n"                          \
-      ".byte 0\n"                        \
-      ".popsection\n");                  \
-  extern "C" const char name[];          \
+#define DRAPE_EMBED(name, file)       \
+  asm(".pushsection .rodata\n"        \
+      ".global " #name "\n" #name     \
+      ":\n"                           \
+      ".incbin \"" file               \
+      "\"\n"                          \
+      ".global " #name "_end\n" #name \
+      "_end:\n"                       \
+      ".byte 0\n"                     \
+      ".popsection\n");               \
+  extern "C" const char name[];       \
   extern "C" const char name##_end[]
 
+DRAPE_EMBED(drape_batch_page, DRAPE_PAGE_FOLDER "/batch_page.js");
 DRAPE_EMBED(drape_run_page, DRAPE_PAGE_FOLDER "/run_page.js");
 
 namespace drape::report {
@@ -32,6 +35,10 @@ std::string base64_of_hex(std::string_view hex) {
 }
 
 }  // namespace
+
+std::string_view batch_page_script() {
+  return {drape_batch_page, static_cast<std::size_t>(drape_batch_page_end - drape_batch_page)};
+}
 
 std::string_view run_page_script() {
   return {drape_run_page, static_cast<std::size_t>(drape_run_page_end - drape_run_page)};

@@ -6,6 +6,9 @@
 
 namespace drape::report {
 
+/// Of a batch's page: sorting, finding, fixes.
+[[nodiscard]] std::string_view batch_page_script();
+
 /// Of a run's page: the view in three dimensions and mending; three.js is in it (MIT; its notice too).
 [[nodiscard]] std::string_view run_page_script();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "drape/alignment/align.hpp"
+#include "drape/alignment/point_pose.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/random.hpp"
 #include "drape/io/mesh_files.hpp"
@@ -111,8 +112,34 @@ std::optional<Camera> initial_camera(const alignment::AlignOptions& options, std
   return camera;
 }
 
+// The camera that the photo's own `initial` or `points` tell about, in the workspace's frame.
+std::optional<Camera> shown_camera(const pipeline::PhotoInput& photo, std::optional<double> focal_px,
+                                   const io::WorkspaceFrame& frame, int width, int height) {
+  const std::string name = photo.image.filename().string();
+  if (photo.camera.initial) {
+    Eigen::Matrix<double, 3, 4> P =
+        Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(photo.camera.initial->data());
+    // x_input = (x_workspace + offset) / metres_per_input_unit.
+    P.leftCols<3>() /= frame.metres_per_input_unit;
+    P.col(3) += P.leftCols<3>() * frame.world_offset_m;
+    const std::optional<Camera> camera = camera_from_matrix(P, width, height);
+    if (!camera) throw config_error("{}: the numbers of camera.initial are no camera", name);
+    return camera;
+  }
+  if (photo.camera.points.empty()) return std::nullopt;
+  std::vector<alignment::PointPair> pairs;
+  for (const auto& p : photo.camera.points)
+    pairs.push_back({{p[0], p[1]}, frame.from_input({p[2], p[3], p[4]})});
+  try {
+    return alignment::camera_from_points(pairs, width, height, focal_px).camera;
+  } catch (const Error& error) {
+    throw config_error("{}: camera.points: {}", name, error.what());
+  }
+}
+
 alignment::PhotoEvidence evidence_of(const Image8& stencil, const io::Photo& photo, std::size_t index,
-                                     const alignment::AlignOptions& options, const pipeline::Input& input) {
+                                     const alignment::AlignOptions& options, const pipeline::Input& input,
+                                     const io::WorkspaceFrame& frame) {
   alignment::PhotoEvidence evidence{stencil, photo.focal_px_prior, &photo.rgb};
   const pipeline::PhotoCamera& camera = input.photos[index].camera;
   if (camera.K || camera.focal_px) {
@@ -126,7 +153,10 @@ alignment::PhotoEvidence evidence_of(const Image8& stencil, const io::Photo& pho
     evidence.lens = lens;
     evidence.focal_px_prior = lens.K(0, 0);
   }
-  evidence.initial_camera = initial_camera(options, index, stencil.width(), stencil.height());
+  evidence.initial_camera =
+      shown_camera(input.photos[index], evidence.focal_px_prior, frame, stencil.width(), stencil.height());
+  if (!evidence.initial_camera)
+    evidence.initial_camera = initial_camera(options, index, stencil.width(), stencil.height());
   evidence.up = Eigen::Vector3d(input.up == 'x', input.up == 'y', input.up == 'z');
   return evidence;
 }
@@ -147,7 +177,7 @@ io::CameraRecord align_one(std::size_t index, const TriangleMesh& mesh, renderin
   if (!record && !shows_object(stencil)) record = rejected(stencil, method_name(options));
   if (!record) {
     const alignment::Alignment alignment =
-        alignment::align_photo(mesh, evidence_of(stencil, photo, index, options, run.input()), options,
+        alignment::align_photo(mesh, evidence_of(stencil, photo, index, options, run.input(), frame), options,
                                item_seed(run.seed(), index), progress);
     record = to_record(alignment, method_name(options));
     add_metrics("photo_" + three_digits(index), alignment.metrics, run);

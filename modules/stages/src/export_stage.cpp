@@ -49,9 +49,10 @@ void describe(Binder& b, ExportOptions& o) {
   b.flag("unlit", o.unlit, "GLB: viewers show the photo's own light and add none (KHR_materials_unlit)");
   b.choice("glb_textures", o.glb_textures, {{"png", TextureFormat::png}, {"jpeg", TextureFormat::jpeg}},
            "GLB: PNG keeps every texel, JPEG is smaller");
-  b.number("web_triangles", o.web_triangles, {0, 10e6},
-           "write model_web.glb, a light copy of about so many triangles and with JPEG textures of 2048 pixels "
-           "at the most: the report shows it; 0: none, and the report has no view in three dimensions");
+  b.number(
+      "web_triangles", o.web_triangles, {0, 10e6},
+      "write model_web.glb, a light copy of about so many triangles and with JPEG textures of 2048 pixels "
+      "at the most: the report shows it; 0: none, and the report has no view in three dimensions");
 }
 
 // Without photos the model is the mesh itself, in one flat material that leaves its own colours to it.
@@ -94,8 +95,7 @@ void write_web_copy(const ExportOptions& options, const TexturedMesh& model, con
   constexpr int most_side_px = 2048;
   TexturedMesh light = meshing::simplified(model, static_cast<std::size_t>(options.web_triangles));
   for (Material& material : light.materials)
-    if (!material.image.empty())
-      material.image = report::fitted(material.image, most_side_px, most_side_px);
+    if (!material.image.empty()) material.image = report::fitted(material.image, most_side_px, most_side_px);
   io::write_glb(run.output("model_web.glb"), light, frame.transform, frame.origin,
                 {.unlit = options.unlit, .jpeg_textures = true, .jpeg_quality = 85});
 }
@@ -203,9 +203,9 @@ pipeline::Stage export_stage() {
                  {"texture", "model.ply"},
                  {"texture", "textures/*.png"},
                  {"align", "cameras.json"}};
-  stage.writes = {"model.glb",    "model_web.glb", "model.obj",    "model.mtl",        "model.ply",
-                  "model_*.png",  "cameras.json", "model_colors.ply", "model.stl",
-                  "colmap/*.txt", "model.mlp",    "metashape.xml"};
+  stage.writes = {"model.glb", "model_web.glb", "model.obj",    "model.mtl",
+                  "model.ply", "model_*.png",   "cameras.json", "model_colors.ply",
+                  "model.stl", "colmap/*.txt",  "model.mlp",    "metashape.xml"};
   stage.applies = [](const pipeline::Input&) { return true; };
   stage.published = true;
   stage.instantiate = pipeline::stage_body(run);

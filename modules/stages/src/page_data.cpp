@@ -74,6 +74,7 @@ Json photos_of(const Results& results) {
                {"width", size.width},
                {"height", size.height},
                {"picture", "photo:" + number},
+               {"regions", inputs[i].mask.empty()},
                {"segments_picture", "segments:" + number},
                {"segments", segments_of(results.file("segment", number + "/segments.json"))}};
     photo.update(camera_of(cameras.cameras[i], cameras.frame, number));

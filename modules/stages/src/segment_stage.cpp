@@ -7,6 +7,7 @@
 #include "drape/stages/segment_files.hpp"
 #include "rows.hpp"
 #include "segments_json.hpp"
+#include "strokes.hpp"
 
 namespace drape::stages {
 namespace {
@@ -19,10 +20,20 @@ Image8 given_mask(const std::filesystem::path& file, const Image8& rgb) {
   return mask;
 }
 
+// The strokes over the scribbles, later ones over earlier ones.
+void draw_strokes(const std::vector<pipeline::PhotoStroke>& strokes, const Image8& rgb, Image8& scribbles) {
+  if (strokes.empty()) return;
+  if (scribbles.empty()) scribbles = Image8(rgb.width(), rgb.height(), 1, stencil::unknown);
+  for (const pipeline::PhotoStroke& stroke : strokes)
+    draw_line(scribbles, stroke.points_px, stroke.width_px,
+              stroke.object ? stencil::object : stencil::background);
+}
+
 segmentation::PhotoRegion region_of(const pipeline::PhotoInput& input, const Image8& rgb) {
   segmentation::PhotoRegion region{input.box_px, input.click_px};
   if (!input.scribbles.empty())
     region.scribbles = io::read_stencil(input.scribbles, rgb.width(), rgb.height());
+  draw_strokes(input.strokes, rgb, region.scribbles);
   if (!input.background.empty()) region.empty_scene = io::read_photo(input.background).rgb;
   return region;
 }
@@ -52,8 +63,13 @@ segmentation::Segmentation write_segment_files(const pipeline::PhotoInput& input
   const io::Photo photo = io::read_photo(input.image);
   // A mask that was made by hand says more than an alpha channel.
   const Image8 mask = input.mask.empty() ? photo.alpha : given_mask(input.mask, photo.rgb);
+  segmentation::SegmentOptions of_photo = options;
+  if (!input.segments.empty()) {
+    of_photo.pick = segmentation::Pick::indices;
+    of_photo.indices = input.segments;
+  }
   segmentation::Segmentation segmented =
-      segmentation::segment_photo(photo.rgb, mask, region_of(input, photo.rgb), options, seed, progress);
+      segmentation::segment_photo(photo.rgb, mask, region_of(input, photo.rgb), of_photo, seed, progress);
   io::write_image(folder / "segments.png", segmentation::paint_labels(segmented));
   write_segments(folder / "segments.json", segmented);
   io::write_image(folder / "stencil.png", segmented.stencil);

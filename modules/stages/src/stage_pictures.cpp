@@ -100,22 +100,23 @@ std::vector<report::Picture> segments_of_photos(const Results& results) {
   for (std::size_t i = 0; i < photos.size(); ++i) {
     const std::string name = photos[i].image.filename().string();
     const std::string number = three_digits(i);
-    pictures.push_back(picture("Photo " + name, "The photo", "",
-                               report::fitted(io::read_photo(photos[i].image).rgb, photo_side_px, photo_side_px),
-                               "photo:" + number));
+    pictures.push_back(
+        picture("Photo " + name, "The photo", "",
+                report::fitted(io::read_photo(photos[i].image).rgb, photo_side_px, photo_side_px),
+                "photo:" + number));
     pictures.push_back(
         {"Segments of " + name, "The photo's segments in distinct colours",
          "Bright: the segments that were chosen as the object.",
          io::encode_image(
-             thinned(io::read_photo(results.file("segment", number + "/segments.png")).rgb, photo_side_px), "png"),
+             thinned(io::read_photo(results.file("segment", number + "/segments.png")).rgb, photo_side_px),
+             "png"),
          "segments:" + number});
     pictures.push_back(
         {"Stencil of " + name, "White where the object was found, black elsewhere",
          "White: object. Black: background. Grey: unknown.",
-         io::encode_image(
-             report::fitted(io::read_photo(results.file("segment", number + "/stencil.png")).rgb, photo_side_px,
-                            photo_side_px),
-             "png"),
+         io::encode_image(report::fitted(io::read_photo(results.file("segment", number + "/stencil.png")).rgb,
+                                         photo_side_px, photo_side_px),
+                          "png"),
          "stencil:" + number});
   }
   return pictures;
@@ -156,14 +157,15 @@ std::vector<report::Picture> overlays(const Results& results) {
         picture("Overlay on " + photos[i].image.filename().string(),
                 "The photo with the outlines of the stencil and of the aligned model",
                 std::string(report::overlay_caption),
-                report::fitted(io::read_photo(results.file("align", number + "/overlay.png")).rgb, photo_side_px,
-                               photo_side_px),
+                report::fitted(io::read_photo(results.file("align", number + "/overlay.png")).rgb,
+                               photo_side_px, photo_side_px),
                 "overlay:" + number));
     if (!any_to_choose || i >= cameras.cameras.size()) continue;
     const Image8 photo = io::read_photo(photos[i].image).rgb;
-    add_candidates(cameras.cameras[i], number, photo,
-                   io::read_stencil(results.file("align", number + "/stencil.png"), photo.width(), photo.height()),
-                   mesh, pictures);
+    add_candidates(
+        cameras.cameras[i], number, photo,
+        io::read_stencil(results.file("align", number + "/stencil.png"), photo.width(), photo.height()), mesh,
+        pictures);
   }
   return pictures;
 }
@@ -175,12 +177,13 @@ std::vector<report::Picture> coverage(const Results& results) {
   for (std::size_t i = 0; i < photos.size(); ++i) {
     const fs::path file = folder / (three_digits(i) + "_coverage.png");
     if (!fs::exists(file)) continue;
-    pictures.push_back(picture("Coverage of " + photos[i].image.filename().string(),
-                               "The photo, dim where nothing of it is on the model",
-                               "Bright: pixels that are on the model as they were. Orange: replaced by colours "
-                               "grown from beside. Dim: not used.",
-                               report::fitted(io::read_photo(file).rgb, photo_side_px, photo_side_px),
-                               "coverage:" + three_digits(i) + "_color"));
+    pictures.push_back(
+        picture("Coverage of " + photos[i].image.filename().string(),
+                "The photo, dim where nothing of it is on the model",
+                "Bright: pixels that are on the model as they were. Orange: replaced by colours "
+                "grown from beside. Dim: not used.",
+                report::fitted(io::read_photo(file).rgb, photo_side_px, photo_side_px),
+                "coverage:" + three_digits(i) + "_color"));
   }
   for (std::size_t page = 0; fs::exists(folder / ("atlas_" + three_digits(page) + "_coverage.png")); ++page) {
     const Image8 image = io::read_photo(folder / ("atlas_" + three_digits(page) + "_coverage.png")).rgb;

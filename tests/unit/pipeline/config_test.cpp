@@ -111,6 +111,52 @@ TEST(Config, InputSection) {
   EXPECT_EQ(config.input.photos[1].image.filename(), "c.jpg");
 }
 
+TEST(Config, WhatAPersonShowedInAPhoto) {
+  const test::ToyProject project;
+  for (const char* name : {"a.scan", "c.jpg"}) write_file(project / name, "x");
+  const auto photo = [&](const std::string& keys) {
+    write_file(project / "toy.yaml",
+               "input:\n  scans: a.scan\n  photos:\n    - {image: c.jpg, " + keys + "}\n");
+    return project.load().input.photos.at(0);
+  };
+  const PhotoInput drawn = photo(
+      "segments: [3, 1], strokes: [{is: object, width_px: 8, points_px: [1, 2, 3, 4]}, {is: background, "
+      "points_px: [5, "
+      "6]}]");
+  EXPECT_EQ(drawn.segments, (std::vector<double>{3, 1}));
+  ASSERT_EQ(drawn.strokes.size(), 2U);
+  EXPECT_TRUE(drawn.strokes[0].object);
+  EXPECT_EQ(drawn.strokes[0].width_px, 8);
+  EXPECT_EQ(drawn.strokes[0].points_px[1], (std::array<double, 2>{3, 4}));
+  EXPECT_FALSE(drawn.strokes[1].object);
+  EXPECT_EQ(photo("camera: {initial: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]}").camera.initial->at(11), 12);
+  const PhotoInput paired =
+      photo("camera: {points: [1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]}");
+  ASSERT_EQ(paired.camera.points.size(), 4U);
+  EXPECT_EQ(paired.camera.points[3][4], 10);
+
+  const auto message = [&](const std::string& keys) {
+    write_file(project / "toy.yaml",
+               "input:\n  scans: a.scan\n  photos:\n    - {image: c.jpg, " + keys + "}\n");
+    return problem(project);
+  };
+  EXPECT_NE(message("strokes: [{is: thing, points_px: [1, 2]}]").find("object or background"),
+            std::string::npos);
+  EXPECT_NE(message("strokes: [{is: object, points_px: [1, 2, 3]}]").find("pairs of x and y"),
+            std::string::npos);
+  EXPECT_NE(message("strokes: [{is: object}]").find("has no points_px"), std::string::npos);
+  EXPECT_NE(message("strokes: [{is: object, width_px: 0, points_px: [1, 2]}]").find("more than 0"),
+            std::string::npos);
+  EXPECT_NE(message("camera: {points: [1, 2, 3, 4, 5]}").find("20 to 5000"), std::string::npos);
+  EXPECT_NE(message("camera: {initial: [1, 2]}").find("must have 12"), std::string::npos);
+  EXPECT_NE(
+      message(
+          "camera: {initial: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12], points: [1, 2, 3, 4, 5, 1, 2, 3, 4, 5, "
+          "1, 2, 3, 4, 5, 6, 7, 8, 9, 10]}")
+          .find("leave one of them out"),
+      std::string::npos);
+}
+
 TEST(Config, WrongInputSections) {
   const test::ToyProject project;
   const auto message = [&](const std::string& input) {

@@ -82,6 +82,13 @@ struct Reader {
       return fail("</" + closed + "> out of order");
     open.pop_back();
   }
+  // What XML takes as it is: <![CDATA[ ... ]]>
+  void section() {
+    const std::size_t end = rest.find("]]>");
+    if (end == std::string_view::npos) return fail("a section without an end");
+    for (const std::size_t i : open) markup.elements[i].text += rest.substr(0, end);
+    rest.remove_prefix(end + 3);
+  }
   void text() {
     const std::size_t length = std::min(rest.find('<'), rest.size());
     const std::string words = resolved(rest.substr(0, length));
@@ -112,6 +119,8 @@ Markup parse_markup(const std::string& document) {
   while (!reader.rest.empty() && reader.markup.problem.empty()) {
     if (reader.take("</"))
       reader.end_tag();
+    else if (reader.take("<![CDATA["))
+      reader.section();
     else if (reader.take("<"))
       reader.start_tag();
     else

@@ -8,6 +8,7 @@
 #include "encoded_picture.hpp"
 #include "html_text.hpp"
 #include "markup.hpp"
+#include "page_script.hpp"
 
 namespace drape::report {
 namespace {
@@ -93,6 +94,34 @@ TEST(Page, ShowsEveryTextAsItIs) {
   }
   EXPECT_GT(shown, 30U);
   EXPECT_EQ(markup.named("img").front().attributes.at("alt"), nasty);
+}
+
+TEST(Page, ScriptIsThereWithAViewAndNamedByThePolicy) {
+  RunPage page = page_of("words");
+  page.pictures[0].key = "photo:000";
+  page.view = ModelView{"glTF bytes", R"({"text": "</script><!-- & ]]>"})"};
+  const std::string text = render_page(page);
+  const Markup markup = parse_markup(text);
+  ASSERT_EQ(markup.problem, "");
+  ASSERT_NE(markup.with_id("view"), nullptr);
+  EXPECT_EQ(markup.with_id("page-data")->text, R"({"text": "\u003c/script\u003e\u003c!-- \u0026 ]]\u003e"})");
+  EXPECT_EQ(markup.with_id("model-bytes")->text, "Z2xURiBieXRlcw==");
+  EXPECT_EQ(markup.named("img").front().attributes.at("data-key"), "photo:000");
+  const std::vector<Element> scripts = markup.named("script");
+  ASSERT_EQ(scripts.size(), 3U);
+  EXPECT_GT(scripts.back().text.size(), 100'000U);
+  // The browser runs the script whose digest the policy names: that of the bytes between the tags.
+  const std::size_t begin = text.rfind("<script>") + 8;
+  const ScriptElement element = script_element(run_page_script());
+  EXPECT_EQ(text.substr(begin, text.rfind("</script>") - begin),
+            element.html.substr(8, element.html.rfind("</script>") - 8));
+  EXPECT_NE(text.find("script-src " + element.policy_source), std::string::npos);
+}
+
+TEST(PageScript, DigestIsThatOfTheContent) {
+  // printf '/*<![CDATA[*/x/*]]>*/' | openssl dgst -sha256 -binary | base64
+  EXPECT_EQ(script_element("x").html, "<script>/*<![CDATA[*/x/*]]>*/</script>\n");
+  EXPECT_EQ(script_element("x").policy_source, "'sha256-AgNK+9h07F0NgK79Sb9X0ZA76oQiT7YjgiWiY4bg/mw='");
 }
 
 TEST(Page, BytesThatAreNoTextDoNotBreakIt) {

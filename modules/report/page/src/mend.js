@@ -16,16 +16,16 @@ function command(data) {
 }
 
 /** What was put right, and how to make use of it. */
-function outcome(fixes, data, opener) {
+function outcome(fixes, data, forget) {
   const file = element('pre', {class: 'wrap'}, element('code'));
   const load = button('Download fixes.yaml', () => download(fixes.file), {class: 'main', id: 'download-fixes'});
-  const clear = button('Forget all', () => fixes.clear());
+  const clear = button('Forget all', forget);
   const made = element('div', {class: 'outcome'},
     element('h3', {}, 'fixes.yaml'), file,
     element('div', {class: 'tools'}, load, clear),
     element('p', {class: 'meta'}, 'Then, in the folder that it was downloaded to:'),
     element('pre', {class: 'wrap'}, element('code', {}, command(data))),
-    element('p', {class: 'meta'}, opener
+    element('p', {class: 'meta'}, window.opener
       ? 'The page of the batch that opened this one collects it too, with those of the other objects.'
       : 'Only what the fixes touch runs again; they stay with the run until `--fixes none`.'));
   made.update = () => {
@@ -80,10 +80,13 @@ export function startMending(root, model, data) {
       element('label', {class: 'check'}, drop, 'Leave this photo out'));
     show(first);
   };
-  const result = outcome(fixes, data, window.opener);
+  const result = outcome(fixes, data, () => {
+    for (const tool of Object.values(tools)) tool.forget?.();
+    fixes.clear();
+    open(data.photos.indexOf(photo));
+  });
   fixes.changed = () => {
     result.update();
-    if (fixes.empty) open(data.photos.indexOf(photo));
     window.opener?.postMessage({kind: 'drape-fixes', object: data.object, photos: structuredClone(fixes.photos)}, '*');
   };
   root.append(...[
@@ -96,6 +99,8 @@ export function startMending(root, model, data) {
     bar, hint, element('div', {class: 'bench'}, pad.canvas, side), result,
   ].filter(Boolean));
   root.hidden = false;
+  document.querySelector('nav a[href="#result"]')?.parentElement.after(
+    element('li', {}, element('a', {href: '#mend'}, 'Put it right')));
   open(0);
   return {fixes, tools, pad};
 }

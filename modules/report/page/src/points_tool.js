@@ -28,6 +28,10 @@ export class PointsTool {
     this.pairs = new Map();  // by photo: [{model: Vector3, photo: [x, y]}]
   }
 
+  forget() {
+    this.pairs.clear();
+  }
+
   available() {
     return Boolean(this.model);
   }
@@ -55,7 +59,7 @@ export class PointsTool {
       ...rounded(pair.model.clone().applyMatrix4(this.data.inputFromModel).toArray(), 7),
     ]);
     this.fixes.set(this.photo.name, 'camera.points', whole.length >= leastPairs ? rows.flat() : undefined);
-    this.refresh?.();
+    this.refresh();
     this.redraw();
   }
 
@@ -70,58 +74,61 @@ export class PointsTool {
   }
 
   panel() {
+    // One view for all photos: browsers give out few of them.
+    this.stage ??= this.makeStage();
+    this.status = element('p', {class: 'meta', role: 'status'});
+    requestAnimationFrame(() => {
+      this.view.first = this.photo.P ?? null;
+      this.view.fit();
+      this.view.home(this.view.first);
+      this.refresh();
+    });
+    return element('div', {class: 'panel'}, this.stage, this.status, button('Take the last one back', () => {
+      const pair = this.list().at(-1);
+      if (pair?.photo && pair.model) delete pair.photo;
+      else this.list().pop();
+      this.keep();
+    }));
+  }
+
+  makeStage() {
     const canvas = element('canvas', {
       tabindex: 0,
       class: 'pick',
       'aria-label': 'The model. Click a place on it; arrow keys turn it, Enter takes what is in the middle.',
     });
     const stage = element('div', {class: 'stage small'}, canvas, element('span', {class: 'middle', 'aria-hidden': 'true'}));
-    const list = element('p', {class: 'meta', role: 'status'});
-    const made = element('div', {class: 'panel'}, stage, list, button('Take the last one back', () => {
-      const pair = this.list().at(-1);
-      if (pair?.photo && pair.model) delete pair.photo;
-      else this.list().pop();
-      this.keep();
-    }));
-    requestAnimationFrame(() => this.open(canvas, list));
-    return made;
-  }
-
-  open(canvas, list) {
-    this.view?.renderer?.dispose();
-    const view = new OrbitView(canvas, this.model);
-    this.view = view;
-    if (!view.renderer) return;
-    view.first = this.photo.P ?? null;
-    view.home(view.first);
-    const marks = new THREE.Group();
-    view.scene.add(marks);
+    this.view = new OrbitView(canvas, this.model);
+    this.marks = new THREE.Group();
+    this.view.scene.add(this.marks);
     let pressed = null;
     canvas.addEventListener('pointerdown', (event) => (pressed = [event.clientX, event.clientY]));
     canvas.addEventListener('pointerup', (event) => {
+      // Farther than this the model was turned.
       if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 4)
-        this.take(view.pick(event.clientX, event.clientY));
+        this.take(this.view.pick(event.clientX, event.clientY));
     });
     canvas.addEventListener('keydown', (event) => {
       if (event.key !== 'Enter') return;
       const box = canvas.getBoundingClientRect();
-      this.take(view.pick(box.left + box.width / 2, box.top + box.height / 2));
+      this.take(this.view.pick(box.left + box.width / 2, box.top + box.height / 2));
     });
-    this.refresh = () => {
-      marks.clear();
-      this.list().forEach((pair, i) => {
-        if (!pair.model) return;
-        const sprite = numberSprite(String(i + 1), colors[i % colors.length], 0.09);
-        sprite.position.copy(pair.model);
-        marks.add(sprite);
-      });
-      const whole = this.list().filter((pair) => pair.model && pair.photo).length;
-      const open = this.list().find((pair) => !pair.model || !pair.photo);
-      list.textContent = `${whole} of at least ${leastPairs} pairs` +
-        (open ? `; now click the same place ${open.model ? 'in the photo' : 'on the model'}` : '');
-      view.draw();
-    };
-    this.refresh();
+    return stage;
+  }
+
+  refresh() {
+    this.marks.clear();
+    this.list().forEach((pair, i) => {
+      if (!pair.model) return;
+      const sprite = numberSprite(String(i + 1), colors[i % colors.length], 0.09);
+      sprite.position.copy(pair.model);
+      this.marks.add(sprite);
+    });
+    const whole = this.list().filter((pair) => pair.model && pair.photo).length;
+    const open = this.list().find((pair) => !pair.model || !pair.photo);
+    this.status.textContent = `${whole} of at least ${leastPairs} pairs` +
+      (open ? `; now click the same place ${open.model ? 'in the photo' : 'on the model'}` : '');
+    this.view.draw();
   }
 
   take(place) {

@@ -20,6 +20,10 @@ export class PoseTool {
     this.states = new Map();  // by photo: what was chosen
   }
 
+  forget() {
+    this.states.clear();
+  }
+
   available(photo) {
     return Boolean(this.model && photo.P);
   }
@@ -74,7 +78,8 @@ export class PoseTool {
       this.keep();
     };
     const poses = element('div', {class: 'poses', role: 'group', 'aria-label': 'Candidate poses'});
-    this.photo.candidates?.forEach((candidate, i) => {
+    const weighed = this.photo.candidates ?? [];
+    if (weighed.length > 1) weighed.forEach((candidate, i) => {
       const shown = picture(candidate.picture);
       poses.append(element('button', {
         type: 'button',

@@ -12,6 +12,10 @@ export class BoxTool {
     this.hint = 'Draw a box round the whole object, with a little room.';
   }
 
+  available(photo) {
+    return photo.regions;
+  }
+
   start(photo) {
     this.photo = photo;
     this.box = this.fixes.of(photo.name).box_px;
@@ -57,6 +61,10 @@ export class ClickTool {
     this.hint = 'Click a point well inside the object.';
   }
 
+  available(photo) {
+    return photo.regions;
+  }
+
   start(photo) {
     this.photo = photo;
   }
@@ -98,18 +106,35 @@ function simplified(points, tolerance) {
 export class StrokesTool {
   constructor({fixes, redraw}) {
     Object.assign(this, {fixes, redraw});
-    this.hint = 'Draw strokes over what is object and what is background; a few are enough.';
+    this.hint = 'Draw strokes over what is object and over what is background: one of each at least, a few are enough.';
     this.kind = 'object';
     this.share = 1.2;
+    this.drawn = new Map();  // by photo
+  }
+
+  available(photo) {
+    return photo.regions;
   }
 
   start(photo) {
     this.photo = photo;
     this.width = this.share / 100 * Math.max(photo.width, photo.height);
+    if (!this.drawn.has(photo)) this.drawn.set(photo, []);
   }
 
   strokes() {
-    return this.fixes.of(this.photo.name).strokes ?? [];
+    return this.drawn.get(this.photo);
+  }
+
+  forget() {
+    this.drawn.clear();
+  }
+
+  // Those of one kind alone say too little.
+  keep() {
+    const both = new Set(this.strokes().map((stroke) => stroke.is)).size === 2;
+    this.fixes.set(this.photo.name, 'strokes', both ? [...this.strokes()] : undefined);
+    this.redraw();
   }
 
   down(at) {
@@ -123,9 +148,8 @@ export class StrokesTool {
   up() {
     const line = simplified(this.line, this.width / 8);
     this.line = null;
-    this.fixes.set(this.photo.name, 'strokes', [
-      ...this.strokes(), {is: this.kind, width_px: pixels([this.width])[0], points_px: pixels(line.flat())},
-    ]);
+    this.strokes().push({is: this.kind, width_px: pixels([this.width])[0], points_px: pixels(line.flat())});
+    this.keep();
   }
 
   draw(context, pixel) {
@@ -152,9 +176,8 @@ export class StrokesTool {
         this.width = value / 100 * Math.max(this.photo.width, this.photo.height);
       }),
       button('Take the last one back', () => {
-        const left = this.strokes().slice(0, -1);
-        this.fixes.set(this.photo.name, 'strokes', left.length > 0 ? left : undefined);
-        this.redraw();
+        this.strokes().pop();
+        this.keep();
       }));
   }
 }
@@ -167,7 +190,7 @@ export class SegmentsTool {
   }
 
   available(photo) {
-    return photo.segments.length > 1;
+    return photo.regions && photo.segments.length > 1;
   }
 
   start(photo) {

@@ -21,9 +21,10 @@ struct SimplifyLimits {
 /// is. The same mesh if it has no more faces than asked for.
 [[nodiscard]] TriangleMesh simplified(const TriangleMesh& mesh, const SimplifyLimits& limits);
 
-/// About `triangles` faces of a textured model by the same edge collapse, its seams and the borders between its
-/// materials kept together; more where these do not allow so few. Faces keep their materials, corners their
-/// texture coordinates; `filled` is left out. The same model if it has no more faces, or for 0 triangles.
+/// About `triangles` faces of a textured model by the same edge collapse, its seams and the borders between
+/// its materials kept together; more where these do not allow so few. Faces keep their materials, corners
+/// their texture coordinates; `filled` is left out. The same model if it has no more faces, or for 0
+/// triangles.
 [[nodiscard]] TexturedMesh simplified(const TexturedMesh& model, std::size_t triangles);
 
 }  // namespace drape::meshing

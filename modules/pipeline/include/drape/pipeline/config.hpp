@@ -63,6 +63,7 @@ struct InputKey {
 [[nodiscard]] const std::vector<InputKey>& scan_keys();
 [[nodiscard]] const std::vector<InputKey>& depth_keys();
 [[nodiscard]] const std::vector<InputKey>& photo_camera_keys();
+[[nodiscard]] const std::vector<InputKey>& stroke_keys();
 [[nodiscard]] const std::vector<InputKey>& top_level_keys();
 
 }  // namespace drape::pipeline

@@ -23,7 +23,8 @@ struct ObjectFixes {
   Location where;
 };
 
-/// Error{config} for what is no such file. Masks are taken relative to it, and made absolute.
+/// Error{config} for what is no such file. Masks and other pictures are taken relative to it, and made
+/// absolute.
 [[nodiscard]] std::vector<ObjectFixes> read_fixes(const std::filesystem::path& file);
 void write_fixes(const std::filesystem::path& file, const std::vector<ObjectFixes>& fixes);
 

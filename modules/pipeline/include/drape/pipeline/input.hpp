@@ -15,6 +15,16 @@ struct PhotoCamera {
   std::optional<double> focal_px;
   std::optional<std::array<double, 9>> K;  // row by row
   std::vector<double> distortion;          // k1 k2 p1 p2 [k3], as OpenCV
+  // About where it is, for the search to start from, in the input's coordinates and upright pixels:
+  std::optional<std::array<double, 12>> initial;  // 3x4 projection matrix, row by row, or
+  std::vector<std::array<double, 5>> points;      // x, y in the photo and X, Y, Z on the object
+};
+
+/// A line that a person drew over the photo.
+struct PhotoStroke {
+  bool object = true;  // else background
+  double width_px = 1;
+  std::vector<std::array<double, 2>> points_px;
 };
 
 struct PhotoInput {
@@ -24,6 +34,8 @@ struct PhotoInput {
   std::filesystem::path background;               // the same view without the object; empty: none
   std::optional<std::array<double, 4>> box_px;    // x, y, width, height
   std::optional<std::array<double, 2>> click_px;  // a point inside the object
+  std::vector<PhotoStroke> strokes;
+  std::vector<double> segments;  // labels of those that are the object; empty: not said
   PhotoCamera camera;
 };
 

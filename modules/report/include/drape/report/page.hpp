@@ -62,8 +62,9 @@ struct RunPage {
 };
 
 /// The page as HTML 5 (well-formed XML too): no network, light and dark, for wide and narrow screens. Its one
-/// script is there where there is a view; without scripts or WebGL everything else can be read all the same. Every text is shown as it is, mark-up in it included; bytes that are no UTF-8 become U+FFFD.
-/// A picture that is neither PNG nor JPEG is replaced by a line that says so.
+/// script is there where there is a view; without scripts or WebGL everything else can be read all the same.
+/// Every text is shown as it is, mark-up in it included; bytes that are no UTF-8 become U+FFFD. A picture
+/// that is neither PNG nor JPEG is replaced by a line that says so.
 [[nodiscard]] std::string render_page(const RunPage& page);
 
 }  // namespace drape::report
