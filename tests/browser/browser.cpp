@@ -153,6 +153,9 @@ std::string Browser::element(const std::string& selector) {
 }
 
 void Browser::click(const std::string& selector) {
+  // At once: the page itself scrolls smoothly.
+  evaluate("document.querySelector(" + json(selector).dump() +
+           ")?.scrollIntoView({block: 'center', behavior: 'instant'})");
   call("/element/" + element(selector) + "/click", json::object());
 }
 

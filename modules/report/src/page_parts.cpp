@@ -18,6 +18,13 @@ std::string pill(std::string_view kind, std::string_view sign, std::string_view 
                      word);
 }
 
+// A value that is told in words wraps; figures never do.
+bool is_words(const Number& number) {
+  return number.value_text.find(' ') != std::string::npos && number.unit.empty() &&
+         std::any_of(number.value_text.begin(), number.value_text.end(),
+                     [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
+}
+
 std::string value_with_unit(const Number& number) {
   std::string text = escaped(number.value_text);
   if (!number.unit.empty())
@@ -129,8 +136,8 @@ std::string number_table(const std::vector<Number>& numbers) {
       "scope=\"col\" class=\"figure\">Value</th>{}</tr></thead><tbody>\n",
       bare ? " bare" : "", bare ? "" : "<th scope=\"col\" class=\"meaning\">Meaning</th>");
   for (const Number& number : numbers)
-    text += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"figure\">{}</td>{}</tr>\n",
-                        escaped(number.name), value_with_unit(number),
+    text += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"{}\">{}</td>{}</tr>\n",
+                        escaped(number.name), is_words(number) ? "words" : "figure", value_with_unit(number),
                         bare ? "" : "<td class=\"meaning\">" + escaped(number.meaning) + "</td>");
   return text + "</tbody></table>\n";
 }

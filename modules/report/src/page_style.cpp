@@ -159,6 +159,7 @@ tbody th { font-weight: 500; }
 .times th { white-space: nowrap; }
 .numbers .meaning { color: var(--soft); width: 55%; padding-right: 0; }
 .numbers .figure { font-weight: 600; }
+.numbers .words { overflow-wrap: anywhere; max-width: 34rem; }
 .numbers .unit { font-weight: 400; color: var(--soft); }
 
 .head { display: flex; flex-wrap: wrap; gap: .3rem .9rem; align-items: center; }
@@ -208,6 +209,7 @@ footer { color: var(--soft); font-size: .85rem; text-align: center; padding-top:
   .bench { grid-template-columns: minmax(0, 1fr); }
   .stage { height: 64vw; min-height: 17rem; }
   .numbers .figure { padding-right: 0; }
+  .numbers .words { grid-column: 1 / -1; color: var(--soft); }
   .numbers .meaning { grid-column: 1 / -1; width: auto; font-size: .85rem; }
   .head .cost { margin-left: 0; flex-basis: 100%; }
 }
