@@ -91,7 +91,7 @@ button:disabled { opacity: .45; cursor: default; }
 .choice button:last-child { border-right: 0; }
 .lights { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 15rem), 1fr)); gap: .5rem 1.5rem; margin-top: .8rem; }
 .lights[hidden] { display: none; }
-.slider { display: grid; grid-template-columns: auto minmax(4rem, 1fr) 3.6rem; gap: .7rem; align-items: center; font-size: .9rem; color: var(--soft); }
+.slider { display: grid; grid-template-columns: auto minmax(3rem, 1fr) 3.2rem; white-space: nowrap; gap: .7rem; align-items: center; font-size: .9rem; color: var(--soft); }
 .slider input { width: 100%; accent-color: var(--accent); }
 .slider output { text-align: right; font-variant-numeric: tabular-nums; color: var(--ink); }
 .legend { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem 1.3rem; margin-top: .8rem; font-size: .9rem; color: var(--soft); }

@@ -183,7 +183,7 @@ std::vector<report::Picture> coverage(const Results& results) {
                 "Bright: pixels that are on the model as they were. Orange: replaced by colours "
                 "grown from beside. Dim: not used.",
                 report::fitted(io::read_photo(file).rgb, photo_side_px, photo_side_px),
-                "coverage:" + three_digits(i) + "_color"));
+                "covered:" + three_digits(i)));
   }
   for (std::size_t page = 0; fs::exists(folder / ("atlas_" + three_digits(page) + "_coverage.png")); ++page) {
     const Image8 image = io::read_photo(folder / ("atlas_" + three_digits(page) + "_coverage.png")).rgb;

@@ -56,10 +56,21 @@ export class Model {
         texels: coverage && new THREE.MeshBasicMaterial({map: coverage, side: THREE.DoubleSide}),
       };
       materials.texels ??= materials.coverage;
+      for (const material of Object.values(materials)) {
+        // The wires lie on the surface, not in it.
+        material.polygonOffset = true;
+        material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
+      }
       if (given.map) given.map.anisotropy = 8;
-      this.surfaces.push({node, kind, name: given.name, color: flat, materials});
+      const wires = new THREE.Mesh(node.geometry, new THREE.MeshBasicMaterial({
+        color: 0x101820, wireframe: true, transparent: true, opacity: 0.35,
+      }));
+      wires.visible = false;
+      wires.raycast = () => {};
+      this.surfaces.push({node, kind, name: given.name, color: flat, materials, wires});
       node.material = materials.photo;
     });
+    for (const {node, wires} of this.surfaces) node.add(wires);
     this.box = new THREE.Box3().setFromObject(this.scene);
     this.center = this.box.getCenter(new THREE.Vector3());
     this.radius = Math.max(0.5 * this.box.getSize(new THREE.Vector3()).length(), 1e-9);
@@ -70,9 +81,9 @@ export class Model {
   }
 
   show(mode, wireframe) {
-    for (const {node, materials} of this.surfaces) {
+    for (const {node, materials, wires} of this.surfaces) {
       node.material = materials[mode];
-      node.material.wireframe = wireframe;
+      wires.visible = wireframe;
     }
   }
 }

@@ -59,11 +59,11 @@ export class OrbitView {
       this.camera.up.set(0, 1, 0);
       // A photo that was taken from straight above has no use for the upright axis.
       if (Math.abs(away.clone().normalize().y) > 0.985) this.camera.up.copy(up);
-      away.setLength(3.9 * radius);
+      away.setLength(3.2 * radius);
       this.camera.position.copy(center).add(away);
     } else {
       this.camera.up.set(0, 1, 0);
-      this.camera.position.copy(center).add(new THREE.Vector3(0.55, 0.42, 1).setLength(3.9 * radius));
+      this.camera.position.copy(center).add(new THREE.Vector3(0.55, 0.42, 1).setLength(3.2 * radius));
     }
     this.controls.target.copy(center);
     this.controls.update();
@@ -179,15 +179,15 @@ export function startView(root, model, data) {
   view.home(view.first);
   const key = element('ul', {class: 'legend'});
   const lights = element('div', {class: 'lights'},
-    slider('Light from the side', {min: -180, max: 180, value: view.light.azimuth, unit: '°'}, (value) => {
+    slider('Light azimuth', {min: -180, max: 180, value: view.light.azimuth, unit: '°'}, (value) => {
       view.light.azimuth = value;
       view.draw();
     }),
-    slider('Light from above', {min: -90, max: 90, value: view.light.elevation, unit: '°'}, (value) => {
+    slider('Light elevation', {min: -90, max: 90, value: view.light.elevation, unit: '°'}, (value) => {
       view.light.elevation = value;
       view.draw();
     }),
-    slider('Strength', {min: 0, max: 250, value: view.light.intensity, unit: ' %'}, (value) => {
+    slider('Light strength', {min: 0, max: 250, value: view.light.intensity, unit: ' %'}, (value) => {
       view.light.intensity = value;
       view.draw();
     }));
@@ -203,7 +203,7 @@ export function startView(root, model, data) {
       ['shape', 'Shape', 'Without colours'], ['coverage', 'Coverage', 'Which photo painted what']]
     : [['shape', 'Shape', 'Without colours'], ['lit', 'Lit', 'Colours under a lamp'], ['photo', 'Unlit', 'Colours alone']];
   if (model.surfaces.some(({materials}) => materials.texels !== materials.coverage))
-    modes.push(['texels', 'Texels', 'Where the photo’s pixels are as they were; orange: grown']);
+    modes.push(['texels', 'Texels', 'Which photo each pixel of the atlas is from; orange: grown']);
   const wire = element('button', {
     type: 'button',
     class: 'toggle',
