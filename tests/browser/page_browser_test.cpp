@@ -120,6 +120,16 @@ double stencil_error_percent(const fs::path& stencil) {
                    .percent();
 }
 
+// The first photo's input after the fixes that are downloaded now.
+pipeline::PhotoInput fixed_photo(Browser& browser, const fs::path& config, const std::string& download) {
+  browser.click("#download-fixes");
+  const std::vector<pipeline::ObjectFixes> fixes = pipeline::read_fixes(browser.downloaded(download));
+  pipeline::ConfigNode root = pipeline::parse_yaml(read_file(config), config.string());
+  pipeline::apply_fixes(root, fixes.at(0));
+  const auto table = stages::stage_table();
+  return pipeline::configure({"bad", config, "", root}, table, {}).input.photos.at(0);
+}
+
 // What the page offers, tool by tool: every fix that it writes is one that a run takes.
 void expect_every_tool_writes_a_valid_fix(Browser& browser, const fs::path& config) {
   browser.click("#mend button[data-key=click]");
@@ -128,8 +138,6 @@ void expect_every_tool_writes_a_valid_fix(Browser& browser, const fs::path& conf
   browser.drag(".pad", {{0.4, 0.5}, {0.5, 0.55}, {0.6, 0.5}});
   browser.click("#mend button[data-key=background]");
   browser.drag(".pad", {{0.1, 0.9}, {0.5, 0.95}, {0.9, 0.9}});
-  browser.click("#mend button[data-key=segments]");
-  browser.drag(".pad", {{0.5, 0.5}});
   browser.click("#mend button[data-key=points]");
   ASSERT_TRUE(browser.wait_for("document.querySelector('.pick')?.width > 100"));
   const std::array<std::array<double, 2>, 4> places{{{0.45, 0.45}, {0.55, 0.45}, {0.5, 0.56}, {0.46, 0.52}}};
@@ -137,18 +145,21 @@ void expect_every_tool_writes_a_valid_fix(Browser& browser, const fs::path& conf
     browser.drag(".pick", {place});
     browser.drag(".pad", {place});
   }
-  browser.click("#download-fixes");
-  const std::vector<pipeline::ObjectFixes> fixes = pipeline::read_fixes(browser.downloaded("fixes (1).yaml"));
-  ASSERT_EQ(fixes.size(), 1U);
-  pipeline::ConfigNode root = pipeline::parse_yaml(read_file(config), config.string());
-  pipeline::apply_fixes(root, fixes[0]);
-  const auto table = stages::stage_table();
-  const pipeline::Config fixed = pipeline::configure({"bad", config, "", root}, table, {});
-  const pipeline::PhotoInput& photo = fixed.input.photos.at(0);
-  EXPECT_TRUE(photo.click_px.has_value());
-  EXPECT_EQ(photo.strokes.size(), 2U);
-  EXPECT_FALSE(photo.segments.empty());
-  EXPECT_EQ(photo.camera.points.size(), 4U);
+  const pipeline::PhotoInput drawn = fixed_photo(browser, config, "fixes (1).yaml");
+  EXPECT_TRUE(drawn.box_px.has_value());
+  EXPECT_TRUE(drawn.click_px.has_value());
+  EXPECT_EQ(drawn.strokes.size(), 2U);
+  EXPECT_EQ(drawn.camera.points.size(), 4U);
+  // Each of these takes the place of what says the same in another way.
+  browser.click("#mend button[data-key=segments]");
+  browser.drag(".pad", {{0.5, 0.5}});
+  browser.click("#mend button[data-key=pose]");
+  browser.drag("#mend .slider input", {{0.5, 0.5}, {0.6, 0.5}});
+  const pipeline::PhotoInput chosen = fixed_photo(browser, config, "fixes (2).yaml");
+  EXPECT_FALSE(chosen.segments.empty());
+  EXPECT_TRUE(chosen.strokes.empty());
+  EXPECT_TRUE(chosen.camera.initial.has_value());
+  EXPECT_TRUE(chosen.camera.points.empty());
 }
 
 TEST(ReportInABrowser, PutsABadObjectRight) {

@@ -55,6 +55,16 @@ export function download(content) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+// What says the same in two ways: the later one holds.
+const rivals = {
+  initial: ['points'],
+  points: ['initial'],
+  segments: ['box_px', 'click_px', 'strokes'],  // they are numbered anew where these change
+  box_px: ['segments'],
+  click_px: ['segments'],
+  strokes: ['segments'],
+};
+
 /** The fixes of one object as they grow on its page. */
 export class Fixes {
   constructor(object) {
@@ -73,6 +83,7 @@ export class Fixes {
     const [section, inner] = key.split('.');
     if (inner) {
       const map = fix[section] ?? {};
+      if (value !== undefined) for (const rival of rivals[inner] ?? []) delete map[rival];
       if (value === undefined) delete map[inner];
       else map[inner] = value;
       if (Object.keys(map).length > 0) fix[section] = map;
@@ -80,6 +91,7 @@ export class Fixes {
     } else if (value === undefined) {
       delete fix[section];
     } else {
+      for (const rival of rivals[section] ?? []) delete fix[rival];
       fix[section] = value;
     }
     if (Object.keys(fix).length > 0) this.photos[photo] = fix;

@@ -12,9 +12,9 @@ function numberSprite(label, color, size) {
   const canvas = element('canvas', {width: 64, height: 64});
   const context = canvas.getContext('2d');
   mark(context, [24, 40], label, 2, color);
-  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({
-    map: new THREE.CanvasTexture(canvas), depthTest: false, sizeAttenuation: false,
-  }));
+  const map = new THREE.CanvasTexture(canvas);
+  map.colorSpace = THREE.SRGBColorSpace;
+  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map, depthTest: false, sizeAttenuation: false}));
   sprite.center.set(24 / 64, 1 - 40 / 64);
   sprite.scale.setScalar(size);
   return sprite;
@@ -120,7 +120,7 @@ export class PointsTool {
     this.marks.clear();
     this.list().forEach((pair, i) => {
       if (!pair.model) return;
-      const sprite = numberSprite(String(i + 1), colors[i % colors.length], 0.09);
+      const sprite = numberSprite(String(i + 1), colors[i % colors.length], 0.06);
       sprite.position.copy(pair.model);
       this.marks.add(sprite);
     });

@@ -42,6 +42,8 @@ export class OrbitView {
     this.light = {azimuth: -35, elevation: 40, intensity: 100};
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
+    this.controls.minDistance = 0.3 * model.radius;
+    this.controls.maxDistance = 30 * model.radius;
     this.controls.addEventListener('change', () => this.draw());
     canvas.addEventListener('keydown', (event) => this.key(event));
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
@@ -233,7 +235,7 @@ export function startView(root, model, data) {
     lights, key,
     element('p', {class: 'meta'},
       'Drag to turn, wheel or pinch to zoom, right button or two fingers to move; or arrow keys, Shift and arrow keys, plus, minus, Home. ' +
-      `A light copy of ${Math.round(model.triangles).toLocaleString('en')} triangles; model.glb has them all.`));
+      `Shown with ${Math.round(model.triangles).toLocaleString('en')} triangles and JPEG textures; model.glb is the finished model.`));
   show(modes[0][0]);
   view.fit();
   return view;
