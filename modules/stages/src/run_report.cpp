@@ -18,7 +18,9 @@ namespace {
 report::Number to_number(const pipeline::Metric& metric) {
   if (std::holds_alternative<double>(metric.second))
     return report::readable_number(metric.first, std::get<double>(metric.second));
-  return {metric.first, std::get<std::string>(metric.second), "", ""};
+  std::string name = metric.first;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return {name, std::get<std::string>(metric.second), "", ""};
 }
 
 std::vector<std::pair<std::string, std::string>> changed_options(
