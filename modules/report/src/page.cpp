@@ -72,12 +72,12 @@ std::string facts(const RunPage& page) {
 
 // The model in three dimensions, which the script fills in, and what it needs.
 std::string model_view(const ModelView& view) {
+  const std::string data =
+      "<script type=\"application/json\" id=\"page-data\">" + json_in_script(view.data_json) + "</script>\n";
+  if (view.glb_bytes.empty()) return data;
   return "<div id=\"view\" class=\"view\"><noscript><p class=\"note\">Without scripts the model cannot be "
-         "turned; the pictures show it from all sides.</p></noscript></div>\n<script "
-         "type=\"application/json\" "
-         "id=\"page-data\">" +
-         json_in_script(view.data_json) +
-         "</script>\n<script type=\"application/octet-stream\" id=\"model-bytes\">" + base64(view.glb_bytes) +
+         "turned; the pictures show it from all sides.</p></noscript></div>\n" +
+         data + "<script type=\"application/octet-stream\" id=\"model-bytes\">" + base64(view.glb_bytes) +
          "</script>\n";
 }
 

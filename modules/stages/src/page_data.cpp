@@ -95,9 +95,11 @@ std::string unseen_text(const pipeline::RunResult& run) {
 }  // namespace
 
 std::optional<report::ModelView> page_view(const Results& results, const pipeline::RunResult& run) {
+  const fs::path holes = results.file("fill", "holes.json");
+  if (holes.empty() || !fs::exists(holes)) return std::nullopt;
   const fs::path model = results.file("export", "model_web.glb");
-  if (model.empty() || !fs::exists(model)) return std::nullopt;
-  const io::WorkspaceFrame frame = io::read_holes(results.file("fill", "holes.json")).frame;
+  const bool modelled = !model.empty() && fs::exists(model);
+  const io::WorkspaceFrame frame = io::read_holes(holes).frame;
   const std::string& name = run.record.name;
   const std::size_t slash = name.rfind('/');
   Json data{{"object", slash == std::string::npos ? name : name.substr(slash + 1)},
@@ -111,7 +113,9 @@ std::optional<report::ModelView> page_view(const Results& results, const pipelin
   for (std::size_t i = 0; i < results.config().input.photos.size(); ++i)
     data["material_names"][three_digits(i) + "_color"] =
         results.config().input.photos[i].image.filename().string();
-  return report::ModelView{read_file(model), data.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  if (!modelled && data["photos"].empty()) return std::nullopt;
+  return report::ModelView{modelled ? read_file(model) : std::string(),
+                           data.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 
 }  // namespace drape::stages

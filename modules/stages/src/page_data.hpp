@@ -22,7 +22,7 @@ inline constexpr std::size_t most_candidates = 6;
 ///                     object is (a mask says it)
 /// P_input is the 3x4 projection from the input's coordinates to upright pixels, row by row: unlike those of
 /// cameras.json it does not depend on the offset of the workspace's frame.
-/// Nothing where the run made no light copy.
+/// Without a light copy only what the photos need; nothing where there are no photos either.
 [[nodiscard]] std::optional<report::ModelView> page_view(const Results& results,
                                                          const pipeline::RunResult& run);
 

@@ -48,7 +48,7 @@ async function start() {
   const root = document.getElementById('view');
   let model = null;
   try {
-    model = await showModel(root, data);
+    if (root) model = await showModel(root, data);
   } catch (error) {
     console.error(error);
     say(root, `The model could not be shown: ${error.message}`, 'failed');

@@ -40,7 +40,7 @@ struct StageSection {
 
 /// The model to be turned on the page, and what can be put right there.
 struct ModelView {
-  std::string glb_bytes;  // glTF 2.0
+  std::string glb_bytes;  // glTF 2.0; empty: there is no model to be turned
   std::string data_json;  // an object, as modules/stages/src/page_data.cpp makes it
 };
 
