@@ -62,22 +62,24 @@ Json camera_of(const io::CameraRecord& record, const io::WorkspaceFrame& frame, 
 }
 
 Json photos_of(const Results& results) {
+  io::CamerasRecord cameras;
+  if (const fs::path file = results.file("align", "cameras.json"); !file.empty() && fs::exists(file))
+    cameras = io::read_cameras(file);
   Json photos = Json::array();
-  const fs::path cameras_file = results.file("align", "cameras.json");
-  if (cameras_file.empty() || !fs::exists(cameras_file)) return photos;
-  const io::CamerasRecord cameras = io::read_cameras(cameras_file);
   const auto& inputs = results.config().input.photos;
-  for (std::size_t i = 0; i < std::min(inputs.size(), cameras.cameras.size()); ++i) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
     const std::string number = three_digits(i);
     const io::ImageSize size = io::read_photo_size(inputs[i].image);
+    const fs::path segments = results.file("segment", number + "/segments.json");
+    if (segments.empty() || !fs::exists(segments)) continue;
     Json photo{{"name", inputs[i].image.filename().string()},
                {"width", size.width},
                {"height", size.height},
                {"picture", "photo:" + number},
                {"regions", inputs[i].mask.empty()},
                {"segments_picture", "segments:" + number},
-               {"segments", segments_of(results.file("segment", number + "/segments.json"))}};
-    photo.update(camera_of(cameras.cameras[i], cameras.frame, number));
+               {"segments", segments_of(segments)}};
+    if (i < cameras.cameras.size()) photo.update(camera_of(cameras.cameras[i], cameras.frame, number));
     photos.push_back(photo);
   }
   return photos;
