@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
@@ -57,12 +58,22 @@ std::string shown(const std::string& cell) {
   return number && std::isfinite(*number) ? report::readable_value(*number) : cell;
 }
 
+bool takes_several_values(const pipeline::SweepTable& table, std::size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [&](const auto& row) { return row[column] != table.rows.front()[column]; });
+}
+
+// What a point cost in this sweep depends on what others had left for it.
+bool is_own_cost(const std::string& column) {
+  return column == "seconds" || column == "peak_memory_mb";
+}
+
 // Columns of numbers that are not all the same: worth a plot.
 std::vector<std::size_t> plotted_columns(const pipeline::SweepTable& table) {
   std::vector<std::size_t> columns;
   for (std::size_t c = table.varied + 1; c < table.columns.size(); ++c) {
     const std::string& name = table.columns[c];
-    if (name == "status" || name == "error") continue;
+    if (name == "status" || name == "error" || is_own_cost(name)) continue;
     std::vector<double> values;
     for (const auto& row : table.rows)
       if (const auto number = parse_double(row[c])) values.push_back(*number);
@@ -119,10 +130,44 @@ std::vector<report::Plot> plots_of(const pipeline::SweepTable& table) {
     if (time != table.columns.end() && table.columns[metric].find("overlap") != std::string::npos)
       plots.push_back(against_option(table, static_cast<std::size_t>(time - table.columns.begin()), metric));
     for (std::size_t option = 1; option <= table.varied; ++option)
-      plots.push_back(against_option(table, option, metric));
+      if (takes_several_values(table, option)) plots.push_back(against_option(table, option, metric));
     if (plots.size() >= most_plots) break;
   }
   return plots;
+}
+
+// "+12.3 (+4.5 %)"; nothing where one of the two has no such number.
+std::string change(const std::optional<double>& before, const std::optional<double>& after) {
+  if (!before || !after || !std::isfinite(*before) || !std::isfinite(*after)) return {};
+  const double difference = *after - *before;
+  std::string text = (difference > 0 ? "+" : "") + report::readable_value(difference);
+  if (*before != 0) text += fmt::format(" ({:+.3g} %)", 100 * difference / std::abs(*before));
+  return text;
+}
+
+// What differs between the points, a row each; and what does not, once.
+std::pair<report::ComparisonSection, report::ComparisonSection> number_tables(
+    const pipeline::SweepTable& table) {
+  report::ComparisonSection differ;
+  differ.heading = "What differs";
+  differ.text =
+      "Seconds of a stage are those of making its result, also where a point took it over from another.";
+  report::ComparisonSection same;
+  same.heading = "The same at every point";
+  same.columns = {"what", "value"};
+  differ.rows.resize(table.rows.size());
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (c > table.varied && table.columns[c] != "status" && !takes_several_values(table, c)) {
+      if (!table.rows.empty() && !table.rows.front()[c].empty())
+        same.rows.push_back({table.columns[c], shown(table.rows.front()[c])});
+      continue;
+    }
+    differ.columns.push_back(table.columns[c]);
+    for (std::size_t r = 0; r < table.rows.size(); ++r)
+      differ.rows[r].push_back(c == 0 ? table.rows[r][c] : shown(table.rows[r][c]));
+  }
+  if (same.rows.empty()) same.text = "Nothing.";
+  return {differ, same};
 }
 
 }  // namespace
@@ -132,18 +177,7 @@ fs::path write_sweep_report(const pipeline::Sweep& sweep, const pipeline::SweepT
   page.eyebrow = "Experiment";
   page.title = sweep.batch.name;
   page.facts = fmt::format("{} points of {}", table.rows.size(), sweep.batch.source.filename().string());
-  report::ComparisonSection numbers{"All numbers",
-                                    "Seconds of a stage are those of making its result, also where a "
-                                    "point took it over from another.",
-                                    table.columns,
-                                    {},
-                                    {},
-                                    {},
-                                    0};
-  for (const auto& row : table.rows) {
-    numbers.rows.push_back(row);
-    for (std::size_t c = 1; c < row.size(); ++c) numbers.rows.back()[c] = shown(row[c]);
-  }
+  const auto [numbers, same] = number_tables(table);
   report::ComparisonSection plots{
       "Plots", "Rest the pointer on a point to see which it is.", {}, {}, plots_of(table), {}, 0};
   report::ComparisonSection sheet{"Pictures", "", {}, {}, {}, {}, 4};
@@ -157,7 +191,7 @@ fs::path write_sweep_report(const pipeline::Sweep& sweep, const pipeline::SweepT
       sheet.pictures.push_back(std::move(picture));
     }
   }
-  page.sections = {numbers, plots, sheet};
+  page.sections = {numbers, plots, sheet, same};
   const fs::path file = sweep.batch.folder() / "report.html";
   write_file(file, report::render_comparison(page));
   return file;
@@ -168,12 +202,13 @@ std::size_t write_run_comparison(const ComparedRun& a, const ComparedRun& b, con
   report::ComparisonSection options{
       "What was different", "", {"what", a.record.name, b.record.name}, {}, {}, {}, 0};
   report::ComparisonSection metrics{
-      "What came out", "", {"what", a.record.name, b.record.name}, {}, {}, {}, 0};
+      "What came out", "", {"what", a.record.name, b.record.name, "change"}, {}, {}, {}, 0};
   std::vector<std::string> part_order;
   std::vector<std::string> metric_order;
   Parts parts;  // exact values; those of the option table are compared by them and shown readably
   Parts readable;
   Parts values;
+  std::map<std::string, std::pair<std::optional<double>, std::optional<double>>> exact;
   const auto note = [](Parts& into, std::vector<std::string>& order, const std::string& name, bool first,
                        const std::string& value) {
     if (into.count(name) == 0) order.push_back(name);
@@ -192,22 +227,32 @@ std::size_t write_run_comparison(const ComparedRun& a, const ComparedRun& b, con
         note(parts, part_order, name, first, part.value);
         note(readable, ignored, name, first, part.readable);
       }
-      note(values, metric_order, stage.stage + ".seconds", first, report::readable_value(record->seconds));
-      note(values, metric_order, stage.stage + ".peak_memory_mb", first,
-           report::readable_value(record->peak_memory_mb));
+      const auto number = [&](const std::string& what, double value) {
+        note(values, metric_order, stage.stage + "." + what, first, report::readable_value(value));
+        (first ? exact[stage.stage + "." + what].first : exact[stage.stage + "." + what].second) = value;
+      };
+      number("seconds", record->seconds);
+      number("peak_memory_mb", record->peak_memory_mb);
       for (const pipeline::Metric& metric : record->metrics)
-        note(values, metric_order, stage.stage + "." + metric.first, first,
-             std::holds_alternative<double>(metric.second)
-                 ? report::readable_value(std::get<double>(metric.second))
-                 : std::get<std::string>(metric.second));
+        if (std::holds_alternative<double>(metric.second))
+          number(metric.first, std::get<double>(metric.second));
+        else
+          note(values, metric_order, stage.stage + "." + metric.first, first,
+               std::get<std::string>(metric.second));
     }
   for (const std::string& name : part_order)
     if (parts[name].first != parts[name].second) {
       const auto& [before, after] = readable[name];
       options.rows.push_back({name, before, before == after ? after + " (other contents)" : after});
     }
-  for (const std::string& name : metric_order)
-    metrics.rows.push_back({name, values[name].first, values[name].second});
+  metrics.folded_text = "What is the same in both";
+  for (const std::string& name : metric_order) {
+    const auto& [before, after] = values[name];
+    (before == after ? metrics.folded_rows : metrics.rows)
+        .push_back(
+            {name, before, after, before == after ? "" : change(exact[name].first, exact[name].second)});
+  }
+  if (metrics.rows.empty()) metrics.text = "No number differs.";
   if (options.rows.empty()) options.text = "Nothing: the same options, files and versions.";
 
   report::ComparisonSection sheet{
@@ -215,17 +260,24 @@ std::size_t write_run_comparison(const ComparedRun& a, const ComparedRun& b, con
   auto left = pictures_of(a, true);
   auto right = pictures_of(b, true);
   for (const auto& [name, picture] : right) left.try_emplace(name, report::Picture{name, name, "", ""});
+  std::string same;
   for (const auto& [name, picture] : left) {
+    if (picture.png_or_jpeg_bytes == right[name].png_or_jpeg_bytes) {
+      same += (same.empty() ? " The same in both: " : ", ") + name;
+      continue;
+    }
     sheet.pictures.push_back(picture);
     sheet.pictures.back().title = a.record.name + ": " + name;
     sheet.pictures.push_back(right[name]);
     sheet.pictures.back().title = b.record.name + ": " + name;
   }
-  report::ComparisonPage page{"Comparison",
-                              a.record.name + " and " + b.record.name,
-                              fmt::format("{} of {}, {} of {}", a.record.status, a.record.started_at,
-                                          b.record.status, b.record.started_at),
-                              {options, metrics, sheet}};
+  if (!same.empty()) sheet.text += same + ".";
+  report::ComparisonPage page{
+      "Comparison",
+      a.record.name + " and " + b.record.name,
+      fmt::format("{}: {}, {}. {}: {}, {}.", a.record.name, a.record.status, a.record.started_at,
+                  b.record.name, b.record.status, b.record.started_at),
+      {options, metrics, sheet}};
   write_file(file, report::render_comparison(page));
   return options.rows.size();
 }

@@ -30,7 +30,9 @@ struct ComparisonSection {
   std::vector<std::vector<std::string>> rows;  // as many cells each
   std::vector<Plot> plots;
   std::vector<Picture> pictures;
-  int pictures_in_row = 0;  // 0: as many as there is room for
+  int pictures_in_row = 0;                                 // 0: as many as there is room for
+  std::vector<std::vector<std::string>> folded_rows = {};  // more rows, shown on a click
+  std::string folded_text = {};                            // what they are
 };
 
 struct ComparisonPage {
