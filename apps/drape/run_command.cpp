@@ -114,16 +114,4 @@ void run_command(const RunArguments& arguments, const std::atomic<bool>& stop) {
   print_summary(result, report);
 }
 
-void make_command(const MakeArguments& arguments, const std::atomic<bool>& stop) {
-  make_folder(arguments.create.output);
-  NewArguments create = arguments.create;
-  create.output /= "drape.yaml";
-  create.force = true;
-  new_command(create);
-  RunArguments run = arguments.run;
-  run.config = create.output;
-  run.sets.insert(run.sets.begin(), "output=model");
-  run_command(run, stop);
-}
-
 }  // namespace drape::app

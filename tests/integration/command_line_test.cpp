@@ -44,6 +44,24 @@ TEST(CommandLine, UsageErrorsExitWith64) {
   }
 }
 
+TEST(CommandLine, MakeKeepsAConfigurationThatWasEdited) {
+  const ScratchFolder folder;
+  write_file(folder / "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const std::vector<std::string> command = {"make", "m.obj", "-o", "all"};
+  EXPECT_EQ(run_drape(command, folder.path()).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "all/model/model.glb"));
+  EXPECT_EQ(run_drape(command, folder.path()).exit_code, 0);  // the same again
+  const std::string edited = read_file(folder / "all/drape.yaml") + "fill: {base: leave}\n";
+  write_file(folder / "all/drape.yaml", edited);
+  const Outcome refused = run_drape(command, folder.path());
+  EXPECT_EQ(refused.exit_code, 64) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "drape run ")) << refused.err;
+  EXPECT_EQ(read_file(folder / "all/drape.yaml"), edited);
+  fs::remove(folder / "all/model/model.glb");
+  EXPECT_EQ(run_drape({"run", "all/drape.yaml"}, folder.path()).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "all/model/model.glb"));
+}
+
 TEST(CommandLine, NewWritesAConfigurationThatIsValid) {
   const ScratchFolder folder;
   fs::create_directories(folder / "scans");

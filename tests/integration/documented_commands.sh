@@ -23,6 +23,6 @@ for page in "$@"; do
   echo "== $page: $count commands"
   DRAPE_BUILD_DIR=$build PATH="$scratch/bin:$PATH" bash -euxo pipefail "$scratch/commands"
 done
-for file in model/model.glb mine-model/model.glb teapot/truth.json; do
+for file in model/model.glb mine-model/model.glb teapot/truth.json first/model/model.glb; do
   [ -s "$scratch/$file" ] || { echo "$file was not made" && exit 1; }
 done
