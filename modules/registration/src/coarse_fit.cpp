@@ -13,7 +13,6 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double least_cosine = 0.70710678118654752;
-constexpr int iterations = 24;
 constexpr std::size_t least_matches = 12;
 
 // Beside the border of a surface nothing lies on it: between samples the nearest is at most about a voxel
@@ -81,13 +80,13 @@ CoarseFit measure_fit(const CoarseScan& source, const CoarseScan& target, const 
 }
 
 Rigid3 fit_coarsely(const CoarseScan& source, const CoarseScan& target,
-                    const Rigid3& target_from_source_guess, std::size_t stride) {
+                    const Rigid3& target_from_source_guess, std::size_t stride, int steps) {
   Rigid3 motion = target_from_source_guess;
   const double voxel = target.voxel();
   BoundingBox box;
   for (const auto& p : source.points()) box.extend(p);
   double reach = 2 * voxel;
-  for (int round = 0; round < iterations; ++round) {
+  for (int round = 0; round < steps; ++round) {
     const Eigen::Vector3d center = motion * box.center();
     Matrix6 H = Matrix6::Zero();
     Vector6 g = Vector6::Zero();

@@ -22,8 +22,8 @@ struct CoarseFit {
 
 /// Moves `source` onto `target`: distances along the mean of both normals (Rusinkiewicz 2019, which draws
 /// from further away than those along one of them), Tukey's weights, with a reach that shrinks from two
-/// voxels to one.
+/// voxels to one. Takes at most so many steps.
 [[nodiscard]] Rigid3 fit_coarsely(const CoarseScan& source, const CoarseScan& target,
-                                  const Rigid3& target_from_source_guess, std::size_t stride);
+                                  const Rigid3& target_from_source_guess, std::size_t stride, int steps);
 
 }  // namespace drape::registration

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "drape/base/parallel.hpp"
@@ -21,6 +22,7 @@ namespace {
 constexpr std::size_t coarse_points = 2500;
 constexpr std::size_t candidates_per_pair = 2;
 constexpr std::size_t sequence_window = 2;
+constexpr double least_edge_score = 0.01;
 constexpr double loop_tolerance_voxels = 4;
 // Poses from a chain of pairs are a voxel or so off, and edges then hang over: more than in a pair.
 constexpr double most_contradiction_in_group = 0.05;
@@ -62,23 +64,25 @@ std::vector<std::optional<SearchedScan>> searched_scans(std::span<const ScanSurf
   return searched;
 }
 
-// Found poses by pair; of each the best, whether to be believed or not, comes first.
-std::vector<std::vector<PairPose>> search_all(const std::vector<Pair>& pairs,
-                                              const std::vector<std::optional<SearchedScan>>& scans,
-                                              const RegisterOptions& options, const Progress& progress) {
-  std::vector<std::vector<PairPose>> found(pairs.size());
+// Found poses by pair, best first; of each the best, whether to be believed or not, comes first.
+using FoundPoses = std::vector<std::vector<PairPose>>;
+
+void search_pairs(const std::vector<Pair>& pairs, const std::vector<std::size_t>& which,
+                  const std::vector<std::optional<SearchedScan>>& scans, const RegisterOptions& options,
+                  Effort effort, FoundPoses& found, const Progress& progress) {
   std::size_t done = 0;
   std::mutex reporting;
-  parallel_for(pairs.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      found[k] = search_pair(*scans[pairs[k].source], *scans[pairs[k].target], hint_for(pairs[k], options),
-                             candidates_per_pair);
+  parallel_for(which.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w) {
+      const Pair& pair = pairs[which[w]];
+      found[which[w]] = search_pair(*scans[pair.source], *scans[pair.target], hint_for(pair, options), effort,
+                                    candidates_per_pair);
       const std::lock_guard lock(reporting);
-      progress.update(static_cast<double>(++done) / static_cast<double>(pairs.size()),
-                      "searching pairs of scans");
+      progress.update(static_cast<double>(++done) / static_cast<double>(which.size()),
+                      effort == Effort::quick ? "searching pairs of scans"
+                                              : "searching the pairs of scans without a place thoroughly");
     }
   });
-  return found;
 }
 
 // The group that the others' poses are told in: that of the placed scans, else the one with most scans.
@@ -95,22 +99,93 @@ std::optional<std::size_t> main_group(const ScanGraph& graph, const std::vector<
       ->first;
 }
 
-double score(const SearchedPair& pair) {
-  return pair.overlap - 2 * (pair.seen_through + pair.in_void / 5);
+// Pairs in the order of their search, their found poses, and the graph that these make.
+struct Joined {
+  std::vector<GraphEdge> edges;
+  std::vector<std::size_t> pair_of_edge;
+  ScanGraph graph;
+};
+
+Joined join(const std::vector<Pair>& pairs, const FoundPoses& found, const std::vector<PlacedScan>& placed,
+            std::span<const ScanSurface> surfaces, const std::vector<std::optional<SearchedScan>>& searched,
+            double voxel) {
+  Joined joined;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const PairPose& pose : found[k])
+      if (pose.against.empty()) {
+        joined.edges.push_back({pairs[k].source, pairs[k].target, pose.target_from_source,
+                                std::max(least_edge_score, pose.score())});
+        joined.pair_of_edge.push_back(k);
+      }
+  std::vector<GraphScan> nodes;
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    nodes.push_back({surfaces[i].box(), placed[i].world_from_scan, placed[i].placed});
+  joined.graph = join_scans(
+      nodes, joined.edges, loop_tolerance_voxels * voxel,
+      [&](std::size_t source, std::size_t target, const Rigid3& target_from_source) {
+        return searched[source] && searched[target] &&
+               judge_pair(*searched[source], *searched[target], target_from_source).contradiction() >
+                   most_contradiction_in_group;
+      });
+  return joined;
+}
+
+// The pairs of scans in different groups that may bring one of them to the main group, by themselves or with
+// others.
+std::vector<std::size_t> apart(const std::vector<Pair>& pairs, const ScanGraph& graph) {
+  std::vector<std::size_t> which;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (graph.group[pairs[k].source] != graph.group[pairs[k].target]) which.push_back(k);
+  return which;
+}
+
+// What became of each pair: its best pose, and whether the others agree with it.
+std::vector<SearchedPair> outcome(const std::vector<Pair>& pairs, const FoundPoses& found,
+                                  const Joined& joined, double voxel) {
+  std::vector<SearchedPair> result;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    SearchedPair& pair = result.emplace_back();
+    pair.first = pairs[k].source;
+    pair.second = pairs[k].target;
+    pair.reason = "nothing in them looks alike";
+    if (found[k].empty()) continue;
+    const PairPose& best = found[k][0];
+    pair = {pairs[k].source,
+            pairs[k].target,
+            best.target_from_source,
+            best.overlap,
+            best.rms_voxels * voxel,
+            best.seen_through,
+            best.in_void,
+            best.hold,
+            false,
+            best.against};
+  }
+  for (std::size_t e = joined.edges.size(); e-- > 0;) {  // a pair's first edge, its best, has the last word
+    SearchedPair& pair = result[joined.pair_of_edge[e]];
+    pair.accepted = joined.graph.against[e].empty();
+    pair.reason = joined.graph.against[e];
+    if (pair.accepted) pair.second_from_first = joined.edges[e].target_from_source;
+  }
+  return result;
 }
 
 std::string why_unplaced(std::size_t scan, std::size_t group, const ScanGraph& graph,
-                         const std::vector<SearchedPair>& pairs, std::span<const RangeScan> scans,
-                         const ScanSurface& surface) {
+                         const std::vector<SearchedPair>& pairs, const FoundPoses& found,
+                         std::span<const RangeScan> scans, const ScanSurface& surface) {
   if (!surface.is_surface()) return "no pose was given, and its points do not span a surface";
   std::size_t companions = 0;
   for (std::size_t i = 0; i < graph.group.size(); ++i)
     companions += i != scan && graph.group[i] == graph.group[scan] ? 1 : 0;
   const SearchedPair* best = nullptr;
-  for (const SearchedPair& pair : pairs) {
-    if (pair.first != scan && pair.second != scan) continue;
+  double most = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const SearchedPair& pair = pairs[k];
+    if (found[k].empty() || (pair.first != scan && pair.second != scan)) continue;
     if (graph.group[pair.first == scan ? pair.second : pair.first] != group) continue;
-    if (best == nullptr || score(pair) > score(*best)) best = &pair;
+    if (best != nullptr && !(found[k][0].score() > most)) continue;
+    most = found[k][0].score();
+    best = &pair;
   }
   std::string reason = "no pose was given, and none was found";
   if (companions > 0)
@@ -130,38 +205,17 @@ GlobalPlacement place_globally(std::vector<PlacedScan> placed, std::span<const R
   const std::vector<Pair> pairs = pairs_to_search(result.scans, surfaces, options);
   result.searched = searched_scans(surfaces, result.voxel);
   const auto& searched = result.searched;
-  const auto found = search_all(pairs, searched, options, progress);
-
-  std::vector<GraphEdge> edges;
-  std::vector<std::size_t> pair_of_edge;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (found[k].empty()) continue;
-    const PairPose& best = found[k][0];
-    result.pairs.push_back({pairs[k].source, pairs[k].target, best.target_from_source, best.overlap,
-                            best.rms_voxels * result.voxel, best.seen_through, best.in_void, best.hold,
-                            best.against.empty(), best.against});
-    for (const PairPose& pose : found[k])
-      if (pose.against.empty()) {
-        edges.push_back({pairs[k].source, pairs[k].target, pose.target_from_source, pose.score()});
-        pair_of_edge.push_back(result.pairs.size() - 1);
-      }
+  FoundPoses found(pairs.size());
+  std::vector<std::size_t> all(pairs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  search_pairs(pairs, all, searched, options, Effort::quick, found, progress.part(0, 0.6));
+  Joined joined = join(pairs, found, result.scans, surfaces, searched, result.voxel);
+  if (const std::vector<std::size_t> left = apart(pairs, joined.graph); !left.empty()) {
+    search_pairs(pairs, left, searched, options, Effort::thorough, found, progress.part(0.6, 1));
+    joined = join(pairs, found, result.scans, surfaces, searched, result.voxel);
   }
-  std::vector<GraphScan> nodes;
-  for (std::size_t i = 0; i < scans.size(); ++i)
-    nodes.push_back({surfaces[i].box(), result.scans[i].world_from_scan, result.scans[i].placed});
-  const ScanGraph graph = join_scans(
-      nodes, edges, loop_tolerance_voxels * result.voxel,
-      [&](std::size_t source, std::size_t target, const Rigid3& target_from_source) {
-        return searched[source] && searched[target] &&
-               judge_pair(*searched[source], *searched[target], target_from_source).contradiction() >
-                   most_contradiction_in_group;
-      });
-  for (std::size_t e = edges.size(); e-- > 0;) {  // the first edge of a pair, its best, has the last word
-    SearchedPair& pair = result.pairs[pair_of_edge[e]];
-    pair.accepted = graph.against[e].empty();
-    pair.reason = graph.against[e];
-    if (pair.accepted) pair.second_from_first = edges[e].target_from_source;
-  }
+  result.pairs = outcome(pairs, found, joined, result.voxel);
+  const ScanGraph& graph = joined.graph;
 
   const std::optional<std::size_t> group = main_group(graph, result.scans, surfaces);
   if (!group) return result;
@@ -172,7 +226,7 @@ GlobalPlacement place_globally(std::vector<PlacedScan> placed, std::span<const R
     PlacedScan& scan = result.scans[i];
     if (scan.placed || surfaces[i].size() == 0) continue;
     if (graph.group[i] != *group) {
-      scan.reason = why_unplaced(i, *group, graph, result.pairs, scans, surfaces[i]);
+      scan.reason = why_unplaced(i, *group, graph, result.pairs, found, scans, surfaces[i]);
       continue;
     }
     scan.placed = true;

@@ -36,7 +36,16 @@ struct PairPose {
 
   /// How much contradicts the lines of sight: missing returns have other causes too, and weigh less.
   [[nodiscard]] double contradiction() const { return seen_through + in_void / 5; }
-  [[nodiscard]] double score() const { return overlap - 2 * contradiction(); }
+  /// Larger is surer: the overlap, less where it nearly slides on itself, and less ten times the
+  /// contradiction.
+  [[nodiscard]] double score() const;
+};
+
+/// How hard to look.
+enum class Effort {
+  quick,     // at what local features agree on
+  thorough,  // also at what pairs of points all over the scans vote for: noisy scans, and those that share
+             // little, need it
 };
 
 /// What is known of a pair before it is searched.
@@ -49,10 +58,10 @@ struct PairHint {
                                   const Rigid3& target_from_source);
 
 /// The ways that two scans may lie to each other, best first, at most `most`; what nothing speaks against
-/// comes before the rest. Motions that feature matches agree on, and that of scans taken from the same place,
-/// are laid on each other's surfaces, the best are fitted, and of these the overlap, the distance and the
-/// lines of sight are judged.
+/// comes before the rest. Motions that feature matches agree on, that of scans taken from the same place, and
+/// those that pairs of points vote for, are tried by a few steps of a fit; the best of these are fitted in
+/// full, and of them the overlap, the distance and the lines of sight are judged.
 [[nodiscard]] std::vector<PairPose> search_pair(const SearchedScan& source, const SearchedScan& target,
-                                                const PairHint& hint, std::size_t most);
+                                                const PairHint& hint, Effort effort, std::size_t most);
 
 }  // namespace drape::registration
