@@ -365,6 +365,7 @@ void write_poses(const std::filesystem::path& file, const PosesRecord& record) {
                              {"overlap", json_of(pair.overlap, "overlap")},
                              {"seen_through", json_of(pair.seen_through, "seen_through")},
                              {"in_void", json_of(pair.in_void, "in_void")},
+                             {"hold", json_of(pair.hold, "hold")},
                              {"verdict", pair.accepted ? "accept" : "reject"},
                              {"reason", pair.reason}});
   save(file, root);
@@ -396,7 +397,8 @@ PosesRecord read_poses(const std::filesystem::path& file) {
     record.pairs.push_back({static_cast<std::size_t>(pair["first"].integer(0, count - 1)),
                             static_cast<std::size_t>(pair["second"].integer(0, count - 1)),
                             pair["rms_m"].number(), pair["overlap"].number(), pair["seen_through"].number(),
-                            pair["in_void"].number(), verdict == "accept", pair["reason"].text()});
+                            pair["in_void"].number(), pair["hold"].number(), verdict == "accept",
+                            pair["reason"].text()});
   }
   return record;
 }

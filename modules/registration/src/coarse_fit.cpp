@@ -1,10 +1,11 @@
 #include "coarse_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "motion_step.hpp"
 
 namespace drape::registration {
 namespace {
@@ -14,23 +15,13 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double least_cosine = 0.70710678118654752;
 constexpr std::size_t least_matches = 12;
+constexpr double damping = 1e-3;
 
 // Beside the border of a surface nothing lies on it: between samples the nearest is at most about a voxel
 // aside.
 bool beside(const Eigen::Vector3d& step, double distance, double voxel) {
   const double aside = 1.5 * voxel;
   return step.squaredNorm() - distance * distance > aside * aside;
-}
-
-Rigid3 moved(const Rigid3& motion, const Vector6& step, const Eigen::Vector3d& center) {
-  const Eigen::Vector3d rotation = step.head<3>();
-  const double angle = rotation.norm();
-  Rigid3 change = Rigid3::Identity();
-  if (angle > 0) change.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-  change.translation() = center + step.tail<3>() - change.linear() * center;
-  Rigid3 result = change * motion;
-  result.linear() = Eigen::Quaterniond(result.linear()).normalized().toRotationMatrix();
-  return result;
 }
 
 double hold_of(const CoarseScan& target, const std::vector<std::uint32_t>& on) {
@@ -87,9 +78,7 @@ Rigid3 fit_coarsely(const CoarseScan& source, const CoarseScan& target,
   for (const auto& p : source.points()) box.extend(p);
   double reach = 2 * voxel;
   for (int round = 0; round < steps; ++round) {
-    const Eigen::Vector3d center = motion * box.center();
-    Matrix6 H = Matrix6::Zero();
-    Vector6 g = Vector6::Zero();
+    MotionStep sums(motion * box.center());
     std::size_t matches = 0;
     for (std::size_t i = 0; i < source.size(); i += stride) {
       const Eigen::Vector3d point = motion * source.points()[i];
@@ -104,23 +93,12 @@ Rigid3 fit_coarsely(const CoarseScan& source, const CoarseScan& target,
       if (std::abs(distance) >= reach || beside(step, distance, voxel)) continue;
       const double u = distance / reach;
       const double weight = (1 - u * u) * (1 - u * u);
-      Vector6 row;
-      row << (point - center).cross(normal), normal;
-      H.noalias() += weight * row * row.transpose();
-      g += weight * distance * row;
+      sums.add(point, normal, distance, weight);
       ++matches;
     }
     if (matches < least_matches) return motion;
-    // Lengths against angles: one unit of each where the outermost points are.
-    const double radius = std::max(box.diagonal().norm() / 2, voxel);
-    Vector6 units;
-    units << Eigen::Vector3d::Constant(1 / radius), Eigen::Vector3d::Ones();
-    const Matrix6 scaled = units.asDiagonal() * H * units.asDiagonal();
-    const Matrix6 damped = scaled + 1e-3 * scaled.trace() / 6 * Matrix6::Identity();
-    const Vector6 step = units.asDiagonal() * damped.ldlt().solve(units.asDiagonal() * -g);
-    if (!step.allFinite()) return motion;
-    motion = moved(motion, step, center);
-    const double size = step.head<3>().norm() * radius + step.tail<3>().norm();
+    const auto [after, size] = sums.applied_to(motion, std::max(box.diagonal().norm() / 2, voxel), damping);
+    motion = after;
     if (reach <= voxel && size < 0.01 * voxel) break;
     reach = std::max(voxel, 0.9 * reach);
   }

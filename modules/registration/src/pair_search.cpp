@@ -8,6 +8,7 @@
 
 #include "coarse_fit.hpp"
 #include "consistent_motions.hpp"
+#include "fine_fit.hpp"
 #include "pair_votes.hpp"
 
 namespace drape::registration {
@@ -33,9 +34,11 @@ constexpr double hinted_cosine = 0.9;  // of half the rotation that a guess may 
 constexpr double least_overlap = 0.1;
 constexpr double most_rms_voxels = 0.28;
 constexpr double most_contradiction = 0.03;  // of the firm overlap
-// Wrong pairs that nothing else gives away share a round body: 0.02. Most scans that are held have 0.03 and
-// more.
-constexpr double least_hold = 0.025;
+constexpr double most_contradiction_of_weak = 0.01;
+// Noise holds even a body of rotation by up to 0.0034. Below 0.025 wrong pairs occur that hardly contradict
+// anything.
+constexpr double least_hold = 0.012;
+constexpr double sound_hold = 0.025;
 constexpr double firm_hold = 0.06;  // what nearly slides on itself is easily shared by chance: it counts less
 constexpr double contradiction_weight = 10;
 constexpr double sight_tolerance_voxels = 0.5;
@@ -114,6 +117,12 @@ std::vector<Tried> promising(const SearchedScan& source, const SearchedScan& tar
   return tried;
 }
 
+void sort_by_belief(std::vector<PairPose>& poses) {
+  std::stable_sort(poses.begin(), poses.end(), [](const PairPose& a, const PairPose& b) {
+    return std::tuple(!a.against.empty(), -a.score()) < std::tuple(!b.against.empty(), -b.score());
+  });
+}
+
 bool alike(const Rigid3& a, const Rigid3& b, const CoarseScan& scan) {
   const Eigen::Vector3d& p = scan.points()[scan.size() / 2];
   return (a * p - b * p).norm() < 2 * scan.voxel() &&
@@ -150,7 +159,8 @@ PairPose judge_pair(const SearchedScan& source, const SearchedScan& target,
     pose.against = fmt::format("their surfaces differ ({:.2f} of {:.2f} voxels)", pose.rms_voxels, most_rms);
   else if (pose.hold < least_hold)
     pose.against = "what they share slides on itself, as planes and round bodies do";
-  else if (pose.contradiction() > most_contradiction * firm_overlap(pose.overlap, pose.hold))
+  else if (pose.contradiction() > (pose.hold < sound_hold ? most_contradiction_of_weak : most_contradiction) *
+                                      firm_overlap(pose.overlap, pose.hold))
     pose.against =
         fmt::format("{:.1f} % of one lies where the other looked through, {:.1f} % where it saw nothing",
                     100 * pose.seen_through, 100 * pose.in_void);
@@ -169,10 +179,15 @@ std::vector<PairPose> search_pair(const SearchedScan& source, const SearchedScan
         }))
       poses.push_back(pose);
   }
-  std::stable_sort(poses.begin(), poses.end(), [](const PairPose& a, const PairPose& b) {
-    return std::tuple(!a.against.empty(), -a.score()) < std::tuple(!b.against.empty(), -b.score());
-  });
+  sort_by_belief(poses);
   if (poses.size() > most) poses.resize(most);
+  // Along what hardly holds them coarse scans drift.
+  for (PairPose& pose : poses)
+    if (pose.hold < firm_hold && pose.overlap > least_overlap)
+      pose = judge_pair(
+          source, target,
+          fit_finely(*source.surface, *target.surface, pose.target_from_source, source.coarse.voxel()));
+  sort_by_belief(poses);
   return poses;
 }
 

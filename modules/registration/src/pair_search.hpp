@@ -14,11 +14,12 @@
 
 namespace drape::registration {
 
-/// A scan with all that the search for its place looks at.
+/// A scan with all that the search for its place looks at; refers to the surface.
 struct SearchedScan {
-  SearchedScan(const ScanSurface& surface, double voxel)
-      : coarse(surface, voxel), features(point_features(coarse)), sight(surface) {}
+  SearchedScan(const ScanSurface& of, double voxel)
+      : surface(&of), coarse(of, voxel), features(point_features(coarse)), sight(of) {}
 
+  const ScanSurface* surface;
   CoarseScan coarse;
   Features features;
   SightMap sight;

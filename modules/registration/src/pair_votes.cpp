@@ -173,7 +173,7 @@ std::vector<Peak> peaks_of(std::size_t reference, const std::vector<Oriented>& s
         best.turn = (static_cast<float>(t) + 0.5F + bins[after] / sum) * (2 * pi / turn_bins);
       }
     }
-    peaks.push_back(best);
+    if (best.votes > 0) peaks.push_back(best);
   }
   const auto kept = peaks.begin() + static_cast<std::ptrdiff_t>(std::min(peaks_per_reference, peaks.size()));
   std::partial_sort(peaks.begin(), kept, peaks.end(), [](const Peak& a, const Peak& b) {

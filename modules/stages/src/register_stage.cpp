@@ -64,7 +64,7 @@ void write_records(const std::vector<RangeScan>& scans, const io::WorkspaceFrame
   }
   for (const registration::SearchedPair& pair : result.searched)
     record.pairs.push_back({pair.first, pair.second, pair.rms_m, pair.overlap, pair.seen_through,
-                            pair.in_void, pair.accepted, pair.reason});
+                            pair.in_void, pair.hold, pair.accepted, pair.reason});
   io::write_poses(run.output("poses.json"), record);
   io::write_cloud_ply(run.output("cloud.ply"), result.merged);
 }
@@ -92,7 +92,7 @@ void run(const registration::RegisterOptions& options, pipeline::StageRun& run) 
 pipeline::Stage register_stage() {
   pipeline::Stage stage;
   stage.name = "register";
-  stage.version = 2;
+  stage.version = 3;
   stage.summary =
       "Puts all scans into one frame: by given poses, or by the shape of the surfaces; refined on the scans' "
       "overlaps.";

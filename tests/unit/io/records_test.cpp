@@ -53,7 +53,7 @@ TEST(Records, PosesReadBack) {
   pose.translation() = Eigen::Vector3d(0.1, 2e7, -3);
   record.scans.push_back({"a.ply", 0, pose, false, "no overlap", 1e-4, 0.7});
   record.scans.push_back({"b.ply", 0, pose, true, "", 0, 0});
-  record.pairs.push_back({0, 1, 2e-4, 0.3, 0.02, 0.05, false, "too far apart"});
+  record.pairs.push_back({0, 1, 2e-4, 0.3, 0.02, 0.05, 0.07, false, "too far apart"});
   io::write_poses(folder / "poses.json", record);
   const io::PosesRecord back = io::read_poses(folder / "poses.json");
   ASSERT_EQ(back.scans.size(), 2U);
@@ -64,6 +64,7 @@ TEST(Records, PosesReadBack) {
   EXPECT_EQ(back.pairs[0].overlap, 0.3);
   EXPECT_EQ(back.pairs[0].seen_through, 0.02);
   EXPECT_EQ(back.pairs[0].in_void, 0.05);
+  EXPECT_EQ(back.pairs[0].hold, 0.07);
   EXPECT_FALSE(back.pairs[0].accepted);
   EXPECT_EQ(back.pairs[0].reason, "too far apart");
   EXPECT_EQ(back.scans[0].world_from_scan.matrix(), pose.matrix());

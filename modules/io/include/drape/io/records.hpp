@@ -68,6 +68,7 @@ struct PairRecord {
   double overlap = 0;       // the larger of the two shares of points on the other's surface, 0..1
   double seen_through = 0;  // the larger of the two shares that lies where the other looked through, 0..1
   double in_void = 0;       // the same of what lies where the other saw nothing at all
+  double hold = 0;          // how firmly what they share holds one on the other; 0 where it slides on itself
   bool accepted = false;    // "verdict": "accept" or "reject"
   std::string reason;       // why not
 };
