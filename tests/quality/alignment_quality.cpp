@@ -7,7 +7,7 @@
 // alignment/cells.cpp. --clean-poses is of the cell 20-60, --poses of every other; --ci is five of each on
 // few models; --misses tells every failure in a line of its own; --save writes the first photo of each row.
 // `flag %`: failures that the verdict does not accept; `list %`: failures of which a right pose is among the
-// candidates; `acc %`: right poses that are accepted.
+// candidates; `acc %`: right poses that are accepted, or of a body of rotation whose free axis is named.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -103,19 +103,6 @@ std::vector<Row> measure_cells(const std::vector<Model>& models, const Settings&
   return rows;
 }
 
-// Of bodies of rotation no pose can be accepted: the verdict is to name the axis.
-void print_axes(const std::vector<Model>& models, const std::vector<Row>& rows) {
-  for (const Model& model : models) {
-    if (!model.symmetry.about_z) continue;
-    int named = 0;
-    int right = 0;
-    for (const Row& row : rows)
-      for (const Trial& trial : row.trials)
-        if (row.model == model.name && trial.right) ++right, named += trial.axis_named;
-    fmt::print("{}: the verdict names the free axis in {} of {} right poses\n", model.name, named, right);
-  }
-}
-
 void run(test::ProgramArguments& arguments) {
   const Settings settings = settings_of(arguments);
   set_thread_count(1);
@@ -126,7 +113,6 @@ void run(test::ProgramArguments& arguments) {
   if (settings.has("cells")) {
     std::vector<Row> rows = measure_cells(models, settings);
     for (const Row& row : rows) json["rows"].push_back(to_json(row));
-    print_axes(models, rows);
     std::erase_if(rows, [](const Row& row) { return row.model == "all"; });
     verdicts = judged(rows);
   }

@@ -83,7 +83,7 @@ cv::Mat smooth_noise(int width, int height, double sigma, std::uint64_t seed) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) noise.at<float>(y, x) = static_cast<float>(rng.normal());
   // White noise blurred by s correlates as exp(-(d / 2 s)^2).
-  cv::GaussianBlur(noise, noise, {0, 0}, correlation_px / 2, correlation_px / 2, cv::BORDER_WRAP);
+  cv::GaussianBlur(noise, noise, {0, 0}, correlation_px / 2, correlation_px / 2, cv::BORDER_REFLECT);
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(noise, mean, deviation);

@@ -33,7 +33,7 @@ struct Figures {
   std::size_t n = 0;
   metrics::Distribution overlap, rotation, about_ray, focal, cpu;
   double worst_overlap = 0;
-  Counted right, right_absolute, flagged, accepted, axis_named, listed;
+  Counted right, right_absolute, flagged, accepted, listed;
 };
 
 Figures figures_of(const Row& row) {
@@ -49,12 +49,11 @@ Figures figures_of(const Row& row) {
     figures.right.n += trial.right;
     figures.right_absolute.n += trial.rotation_deg < right_deg;
     (trial.right ? figures.accepted : figures.flagged).of += 1;
-    if (trial.right) figures.accepted.n += trial.verdict == Verdict::accept;
+    if (trial.right) figures.accepted.n += trial.known_as_right();
     if (!trial.right) figures.flagged.n += trial.verdict != Verdict::accept;
-    figures.axis_named.n += trial.axis_named;
     if (!trial.right && trial.best_candidate_deg) figures.listed.n += *trial.best_candidate_deg < right_deg;
   }
-  figures.right.of = figures.right_absolute.of = figures.axis_named.of = static_cast<int>(figures.n);
+  figures.right.of = figures.right_absolute.of = static_cast<int>(figures.n);
   figures.listed.of = figures.flagged.of;
   figures.worst_overlap = overlap.empty() ? 0 : *std::min_element(overlap.begin(), overlap.end());
   figures.overlap = metrics::distribution(overlap);
@@ -132,7 +131,6 @@ nlohmann::json to_json(const Row& row) {
                          {"failures_flagged", f.flagged.json()},
                          {"failures_listed_among_candidates", f.listed.json()},
                          {"right_accepted", f.accepted.json()},
-                         {"axis_named", f.axis_named.json()},
                          {"cpu_seconds", json_of(f.cpu)}};
   json["failures"] = nlohmann::json::array();
   for (const Trial& trial : row.trials)

@@ -76,7 +76,8 @@ Trial align_shot(const Model& model, const Cell& cell, const Shot& shot,
   rendering::Renderer renderer(model.object);
   trial.overlap_percent =
       metrics::stencil_overlap(renderer.stencil(found.camera), renderer.stencil(shot.truth)).percent();
-  trial.axis_named = model.symmetry.about_z && found.free_axis &&
+  trial.has_axis = model.symmetry.about_z;
+  trial.axis_named = trial.has_axis && found.free_axis &&
                      std::abs(found.free_axis->direction.normalized().z()) > axis_cosine;
   for (const alignment::AlignmentCandidate& candidate : found.candidates) {
     const double deg = error_about_ray(candidate.camera, shot.truth, model);

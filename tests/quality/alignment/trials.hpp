@@ -35,10 +35,16 @@ struct Trial {
   bool right = false;
   alignment::Verdict verdict = alignment::Verdict::reject;
   double confidence = 0;    // margin of the score over the next pose, by which trials of a verdict are ranked
-  bool axis_named = false;  // of a body of rotation: the verdict names its axis, to 5 degrees
+  bool has_axis = false;    // of a body of rotation
+  bool axis_named = false;  // by the verdict, to 5 degrees
   double cpu_seconds = 0;
   std::vector<std::string> reasons;
   std::optional<double> best_candidate_deg;  // of the poses listed: the least error about the ray
+
+  /// What the verdict should say of a right pose: of a body of rotation that it is free about the axis.
+  [[nodiscard]] bool known_as_right() const {
+    return has_axis ? axis_named : verdict == alignment::Verdict::accept;
+  }
 };
 
 [[nodiscard]] Trial align_shot(const Model& model, const Cell& cell, const Shot& shot,
