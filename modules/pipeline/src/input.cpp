@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "drape/base/files.hpp"
 #include "drape/base/numbers.hpp"
 #include "drape/base/options.hpp"
 
@@ -367,7 +368,10 @@ const std::vector<InputKey>& input_keys() {
       {"units", "units of the scans or the mesh: m, cm, mm, in, ft; auto guesses from their size"},
       {"up", "axis of the input that points up: x, y or z"},
       {"mesh", "a mesh to start from, instead of scans"},
-      {"cameras", "a cameras.json whose cameras are taken as they are, instead of alignment"},
+      {"cameras",
+       "cameras of the photos: drape's cameras.json, or a photogrammetry program's: COLMAP's images.txt "
+       "(with "
+       "cameras.txt beside it), Bundler's .out (with list.txt), Metashape's .xml; see align.block"},
       {"photos", "the photos: file names, or sections with image and what is known of it"},
   };
   return keys;
@@ -458,12 +462,23 @@ std::optional<double> metres_per_unit(Units units) {
   return std::nullopt;
 }
 
+// Without it the file of cameras cannot be read; which is told where that is tried.
+fs::path file_beside(const fs::path& cameras) {
+  const std::string ending = extension(cameras);
+  const fs::path beside = ending == "txt"   ? cameras.parent_path() / "cameras.txt"
+                          : ending == "out" ? cameras.parent_path() / "list.txt"
+                                            : fs::path();
+  std::error_code ignored;
+  return !beside.empty() && fs::is_regular_file(beside, ignored) ? beside : fs::path();
+}
+
 Input read_input_section(const ConfigNode& node, const fs::path& folder, InputProblems& problems) {
   MapReader reader(node, "input", input_keys(), problems);
   Input input;
   input.poses = reader.file("poses", folder);
   input.mesh = reader.file("mesh", folder);
   input.cameras = reader.file("cameras", folder);
+  input.cameras_beside = file_beside(input.cameras);
 
   struct Scalars {
     Units units = Units::guess;

@@ -89,7 +89,10 @@ void add_input_part(Parts& parts, const std::string& part, const Input& input) {
   if (part == "scans") add_scan_part(parts, input);
   if (part == "poses") parts.add_file("input.poses", input.poses);
   if (part == "mesh") parts.add_file("input.mesh", input.mesh);
-  if (part == "cameras") parts.add_file("input.cameras", input.cameras);
+  if (part == "cameras") {
+    parts.add_file("input.cameras", input.cameras);
+    parts.add_file("input.cameras (beside it)", input.cameras_beside);
+  }
   if (part == "units") {
     const auto metres = metres_per_unit(input.units);
     parts.add("input.units", metres ? OptionValue(*metres) : OptionValue(std::monostate{}));

@@ -4,6 +4,7 @@
 
 #include "drape/alignment/align.hpp"
 #include "drape/alignment/point_pose.hpp"
+#include "drape/alignment/shared_focal.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/random.hpp"
 #include "drape/io/mesh_files.hpp"
@@ -12,10 +13,15 @@
 #include "drape/metrics/stencil_agreement.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "drape/report/overlay_picture.hpp"
+#include "known_cameras.hpp"
 #include "rows.hpp"
 
 namespace drape::stages {
 namespace {
+
+// Of the time, until the cameras of input.cameras are known, and until a focal length for all photos is.
+constexpr double given_share = 0.1;
+constexpr double shared_share = 0.5;
 
 io::Verdict to_record(alignment::Verdict verdict) {
   switch (verdict) {
@@ -75,25 +81,6 @@ void add_metrics(const std::string& photo, const alignment::AlignmentMetrics& me
 
 std::string method_name(const alignment::AlignOptions& options) {
   return options.method == alignment::Method::exhaustive ? "exhaustive" : "silhouette";
-}
-
-// The camera that input.cameras gives for this photo, in this workspace's frame; nothing if it names it not.
-std::optional<io::CameraRecord> given_camera(const io::CamerasRecord& given, const std::string& photo,
-                                             const io::WorkspaceFrame& frame) {
-  for (const io::CameraRecord& record : given.cameras) {
-    if (record.photo != photo) continue;
-    io::CameraRecord camera = record;
-    // Both frames are metres; they differ by their offsets: x_given = x_here + offset_here - offset_given.
-    const Eigen::Vector3d shift = frame.world_offset_m - given.frame.world_offset_m;
-    camera.camera.camera_from_world.translate(shift);
-    camera.verdict = io::Verdict::accept;
-    camera.reasons = {"given by input.cameras"};
-    camera.method = "given";
-    camera.candidates.clear();
-    camera.sigma.reset();
-    return camera;
-  }
-  return std::nullopt;
 }
 
 // P of align.initial_camera, taken apart: the left part of P is an upper triangular K times a rotation.
@@ -161,23 +148,50 @@ alignment::PhotoEvidence evidence_of(const Image8& stencil, const io::Photo& pho
   return evidence;
 }
 
+Image8 read_stencil(std::size_t index, const io::Photo& photo, const pipeline::StageRun& run) {
+  return io::read_stencil(run.artifact("segment", three_digits(index) + "/stencil.png"), photo.rgb.width(),
+                          photo.rgb.height());
+}
+
+// Of photos that nothing is known of, in lengths of a photo's longer side.
+std::optional<double> focal_of_all(const TriangleMesh& mesh, const io::WorkspaceFrame& frame,
+                                   const std::vector<KnownCamera>& known,
+                                   const alignment::AlignOptions& options, const pipeline::StageRun& run,
+                                   const Progress& progress) {
+  std::vector<alignment::Alignment> alone;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i].given || known[i].by_block) continue;
+    const io::Photo photo = io::read_photo(run.input().photos[i].image);
+    const Image8 stencil = read_stencil(i, photo, run);
+    const alignment::PhotoEvidence evidence = evidence_of(stencil, photo, i, options, run.input(), frame);
+    if (evidence.lens || !shows_object(stencil)) continue;
+    const auto count = static_cast<double>(known.size());
+    alone.push_back(alignment::align_photo(
+        mesh, evidence, options, item_seed(run.seed(), i),
+        progress.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)));
+  }
+  return alignment::shared_focal(alone);
+}
+
 // Aligns photo number `index`, and writes its stencil and overlay.
 io::CameraRecord align_one(std::size_t index, const TriangleMesh& mesh, rendering::Renderer& renderer,
-                           const io::WorkspaceFrame& frame, const io::CamerasRecord& given,
-                           const alignment::AlignOptions& options, pipeline::StageRun& run,
-                           const Progress& progress) {
+                           const io::WorkspaceFrame& frame, const KnownCamera& known,
+                           std::optional<double> focal_per_side, const alignment::AlignOptions& options,
+                           pipeline::StageRun& run, const Progress& progress) {
   const pipeline::PhotoInput& input = run.input().photos[index];
   const std::string name = input.image.filename().string();
   progress.update(0, name);
   const io::Photo photo = io::read_photo(input.image);
   const std::string stencil_name = three_digits(index) + "/stencil.png";
-  const Image8 stencil =
-      io::read_stencil(run.artifact("segment", stencil_name), photo.rgb.width(), photo.rgb.height());
-  std::optional<io::CameraRecord> record = given_camera(given, name, frame);
+  const Image8 stencil = read_stencil(index, photo, run);
+  std::optional<io::CameraRecord> record = known.given;
+  if (known.by_block) record = to_record(*known.by_block, "block");
   if (!record && !shows_object(stencil)) record = rejected(stencil, method_name(options));
   if (!record) {
+    alignment::AlignOptions own = options;
+    if (focal_per_side) own.focal_px = *focal_per_side * std::max(stencil.width(), stencil.height());
     const alignment::Alignment alignment =
-        alignment::align_photo(mesh, evidence_of(stencil, photo, index, options, run.input(), frame), options,
+        alignment::align_photo(mesh, evidence_of(stencil, photo, index, options, run.input(), frame), own,
                                item_seed(run.seed(), index), progress);
     record = to_record(alignment, method_name(options));
     add_metrics("photo_" + three_digits(index), alignment.metrics, run);
@@ -197,15 +211,26 @@ void run(const alignment::AlignOptions& options, pipeline::StageRun& run) {
   const TriangleMesh mesh = io::read_mesh(run.artifact("fill", "mesh.ply"));
   io::CamerasRecord record;
   record.frame = io::read_holes(run.artifact("fill", "holes.json")).frame;
-  io::CamerasRecord given;
-  if (!run.input().cameras.empty()) given = io::read_cameras(run.input().cameras);
+  const std::vector<KnownCamera> known =
+      known_cameras(mesh, record.frame, options, run, run.progress().part(0, given_share));
   rendering::Renderer renderer(mesh);
   const std::size_t count = run.input().photos.size();
   double least_overlap = 100;
+  double known_share = given_share;
+  std::optional<double> focal;
+  if (options.share_focal && options.method == alignment::Method::silhouette) {
+    known_share = shared_share;
+    focal =
+        focal_of_all(mesh, record.frame, known, options, run, run.progress().part(given_share, shared_share));
+    if (focal) run.metric("shared_focal_per_side", *focal);
+  }
   for (std::size_t i = 0; i < count; ++i) {
-    const Progress progress = run.progress().part(static_cast<double>(i) / static_cast<double>(count),
-                                                  static_cast<double>(i + 1) / static_cast<double>(count));
-    record.cameras.push_back(align_one(i, mesh, renderer, record.frame, given, options, run, progress));
+    const auto share = [&](std::size_t done) {
+      return known_share + (1 - known_share) * static_cast<double>(done) / static_cast<double>(count);
+    };
+    const Progress progress = run.progress().part(share(i), share(i + 1));
+    record.cameras.push_back(
+        align_one(i, mesh, renderer, record.frame, known[i], focal, options, run, progress));
     const io::CameraRecord& camera = record.cameras.back();
     least_overlap = std::min(least_overlap, camera.overlap_percent);
     if (camera.verdict != io::Verdict::accept)
@@ -221,7 +246,7 @@ void run(const alignment::AlignOptions& options, pipeline::StageRun& run) {
 pipeline::Stage align_stage() {
   pipeline::Stage stage;
   stage.name = "align";
-  stage.version = 3;
+  stage.version = 4;
   stage.summary = "Finds each photo's camera by matching the mesh's outline with the photo's stencil.";
   stage.input_parts = {"photos", "photo_cameras", "cameras", "up"};
   stage.reads = {{"fill", "mesh.ply"}, {"fill", "holes.json"}, {"segment", "*/stencil.png"}};

@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "drape/alignment/align_block.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/metrics/reprojection_error.hpp"
@@ -42,14 +44,12 @@ double extent_px(const TriangleMesh& mesh, const Camera& camera) {
   return box.sizes().maxCoeff();
 }
 
-RealTrial align_real(const std::string& name, const TriangleMesh& mesh, const Camera& truth,
-                     const Image8& stencil, const Image8& photo, const alignment::AlignOptions& options) {
+// What came of a photo, against its true camera.
+RealTrial judged_trial(const std::string& name, const TriangleMesh& mesh, const Camera& truth,
+                       const alignment::Alignment& found, double cpu_seconds) {
   RealTrial trial;
   trial.name = name;
-  const double before = test::cpu_seconds();
-  const alignment::Alignment found =
-      alignment::align_photo(mesh, {stencil, std::nullopt, &photo}, options, 1, {});
-  trial.cpu_seconds = test::cpu_seconds() - before;
+  trial.cpu_seconds = cpu_seconds;
   trial.verdict = found.verdict;
   if (!found.reasons.empty()) trial.reason = found.reasons.front();
   if (found.candidates.empty()) {
@@ -62,11 +62,24 @@ RealTrial align_real(const std::string& name, const TriangleMesh& mesh, const Ca
   trial.focal_percent = error.focal_percent.value_or(0);
   trial.right =
       error.rotation_about_ray_deg < most_deg && trial.px < most_size_share * extent_px(mesh, truth);
+  return trial;
+}
+
+void print(const RealTrial& trial) {
   fmt::print(
       "{:12} {:8.2f} px {:8.2f} deg about the ray, focal length {:+6.1f} %, {:5} {:6} {:.2f} CPU s: {}\n",
-      name, trial.px, trial.about_ray_deg, trial.focal_percent, trial.right ? "right" : "wrong",
+      trial.name, trial.px, trial.about_ray_deg, trial.focal_percent, trial.right ? "right" : "wrong",
       verdict_name(trial.verdict), trial.cpu_seconds, trial.reason);
   std::fflush(stdout);
+}
+
+RealTrial align_real(const std::string& name, const TriangleMesh& mesh, const Camera& truth,
+                     const Image8& stencil, const Image8& photo, const alignment::AlignOptions& options) {
+  const double before = test::cpu_seconds();
+  const alignment::Alignment found =
+      alignment::align_photo(mesh, {stencil, std::nullopt, &photo}, options, 1, {});
+  RealTrial trial = judged_trial(name, mesh, truth, found, test::cpu_seconds() - before);
+  print(trial);
   return trial;
 }
 
@@ -114,22 +127,95 @@ nlohmann::json measure_lmo(const alignment::AlignOptions& options) {
   return summarised("lmo", trials);
 }
 
+namespace {
+
+/// A hull of every second photo, and the others.
+struct Dino {
+  TriangleMesh hull;
+  std::vector<PosedPhoto> photos;
+  std::vector<Image8> rgbs;
+  std::vector<Image8> stencils;
+};
+
+Dino make_dino(const std::vector<PosedPhoto>& photos) {
+  Dino dino;
+  std::vector<Outline> outlines;
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    Image8 rgb = io::read_photo(photos[i].image).rgb;
+    Image8 stencil = dino_stencil(rgb);
+    if (i % 2 == 0) {
+      outlines.push_back({photos[i].truth, std::move(stencil)});
+      continue;
+    }
+    dino.photos.push_back(photos[i]);
+    dino.rgbs.push_back(std::move(rgb));
+    dino.stencils.push_back(std::move(stencil));
+  }
+  // Of the object, as published, and a little around it.
+  const BoundingBox box(Eigen::Vector3d(-0.046, -0.003, -0.042), Eigen::Vector3d(0.035, 0.092, 0.040));
+  dino.hull = visual_hull(outlines, box, 0.0006);
+  fmt::print("dino: a hull of {} faces from {} photos\n", dino.hull.faces.size(), outlines.size());
+  return dino;
+}
+
+// Any frame and unit, as a photogrammetry program's.
+alignment::Similarity some_block() {
+  return {
+      7.5, Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix(), {30, -4, 12}};
+}
+
+// Blocks of `size` photos from all round; each photo is in one of them.
+std::vector<RealTrial> align_blocks(const Dino& dino, std::size_t size,
+                                    const alignment::AlignOptions& options) {
+  std::vector<RealTrial> trials;
+  const std::size_t blocks = dino.photos.size() / size;
+  const alignment::Similarity block_from_world = some_block();
+  for (std::size_t b = 0; b < blocks; ++b) {
+    std::vector<alignment::BlockPhoto> members;
+    std::vector<std::size_t> indices;
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t i = b + k * blocks;
+      const Camera& truth = dino.photos[i].truth;
+      alignment::PhotoEvidence evidence{dino.stencils[i], std::nullopt, &dino.rgbs[i]};
+      evidence.lens = alignment::KnownLens{truth.K, {}};
+      Rigid3 camera_from_block = Rigid3::Identity();
+      camera_from_block.linear() = truth.camera_from_world.linear() * block_from_world.rotation.transpose();
+      camera_from_block.translation() = block_from_world.scale * truth.camera_from_world.translation() -
+                                        camera_from_block.linear() * block_from_world.translation;
+      members.push_back({evidence, camera_from_block});
+      indices.push_back(i);
+    }
+    const double before = test::cpu_seconds();
+    const alignment::BlockAlignment found = alignment::align_block(dino.hull, members, options, 1, {});
+    const double seconds = (test::cpu_seconds() - before) / static_cast<double>(size);
+    for (std::size_t k = 0; k < size; ++k)
+      trials.push_back(judged_trial(dino.photos[indices[k]].name, dino.hull, dino.photos[indices[k]].truth,
+                                    found.photos[k], seconds));
+    const RealTrial& first = trials[trials.size() - size];
+    fmt::print("block of {}: {} {:8.2f} px {:8.2f} deg, {:5} {:6} {:.2f} CPU s a photo: {}\n", size,
+               first.name, first.px, first.about_ray_deg, first.right ? "right" : "wrong",
+               verdict_name(found.verdict), seconds, first.reason);
+  }
+  return trials;
+}
+
+}  // namespace
+
 nlohmann::json measure_dino(const alignment::AlignOptions& options) {
   const std::vector<PosedPhoto> photos = posed_photos("dino");
   if (photos.empty()) return fmt::print("dino skipped: needs photos/dino of DRAPE_TEST_DATA\n"), nullptr;
-  std::vector<Outline> outlines;
-  for (std::size_t i = 0; i < photos.size(); i += 2)
-    outlines.push_back({photos[i].truth, dino_stencil(io::read_photo(photos[i].image).rgb)});
-  // Of the object, as published, and a little around it.
-  const BoundingBox box(Eigen::Vector3d(-0.046, -0.003, -0.042), Eigen::Vector3d(0.035, 0.092, 0.040));
-  const TriangleMesh hull = visual_hull(outlines, box, 0.0006);
-  fmt::print("dino: a hull of {} faces from {} photos\n", hull.faces.size(), outlines.size());
-  std::vector<RealTrial> trials;
-  for (std::size_t i = 1; i < photos.size(); i += 2) {
-    const Image8 rgb = io::read_photo(photos[i].image).rgb;
-    trials.push_back(align_real(photos[i].name, hull, photos[i].truth, dino_stencil(rgb), rgb, options));
+  const Dino dino = make_dino(photos);
+  nlohmann::json json;
+  std::vector<RealTrial> alone;
+  for (std::size_t i = 0; i < dino.photos.size(); ++i)
+    alone.push_back(align_real(dino.photos[i].name, dino.hull, dino.photos[i].truth, dino.stencils[i],
+                               dino.rgbs[i], options));
+  json["one by one"] = summarised("dino, one by one", alone);
+  for (const std::size_t size : {2, 4, 6}) {
+    const std::string name = fmt::format("dino, blocks of {}", size);
+    json[name] = summarised(name, align_blocks(dino, size, options));
   }
-  return summarised("dino, one by one", trials);
+  return json;
 }
 
 }  // namespace drape::lab

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "drape/alignment/block_use.hpp"
 #include "drape/alignment/exhaustive_options.hpp"
 #include "drape/base/options.hpp"
 #include "drape/base/progress.hpp"
@@ -24,6 +25,8 @@ struct AlignOptions {
   std::optional<double> fov_deg;
   std::optional<double> max_roll_deg;
   std::vector<double> initial_camera;
+  BlockUse block = BlockUse::automatic;
+  bool share_focal = false;
   ExhaustiveOptions exhaustive;
 };
 
@@ -46,6 +49,16 @@ inline void describe(Binder& b, AlignOptions& o) {
   b.numbers("initial_camera", o.initial_camera, 0, {-1e12, 1e12},
             "silhouette: per photo the 12 numbers of P, row by row, as cameras.json lists them for its "
             "candidates; 12 zeros: none");
+  b.choice(
+      "block", o.block,
+      {{"auto", BlockUse::automatic}, {"given", BlockUse::given}, {"similarity", BlockUse::similarity}},
+      "what the cameras of input.cameras are. given: cameras in the frame of the scans or the mesh; "
+      "similarity: known among themselves alone, and brought to the mesh together by the stencils of all "
+      "photos; auto: drape's own cameras.json is given, files of other programs are not");
+  b.flag(
+      "share_focal", o.share_focal,
+      "silhouette: all photos are of one camera and zoom. Each is aligned by itself, then all again with the "
+      "focal length that the accepted ones tell together");
   describe(b, o.exhaustive);
 }
 

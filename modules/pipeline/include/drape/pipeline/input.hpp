@@ -66,6 +66,8 @@ struct Input {
   char up = 'z';                         // 'x', 'y' or 'z': the input's axis that points up
   std::filesystem::path mesh;            // instead of scans; empty: none
   std::filesystem::path cameras;         // known cameras; empty: none
+  std::filesystem::path
+      cameras_beside;  // the file that belongs to it: COLMAP's cameras.txt, Bundler's list.txt
   std::vector<PhotoInput> photos;
 };
 
