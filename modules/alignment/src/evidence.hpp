@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,13 +34,34 @@ struct Agreement {
 
   /// What poses are ranked by, 0..1. The outline says more than the area: of a stencil that is wrong in part
   /// the rest of the outline still fits the right pose, while the area fits many, and some of them better.
-  [[nodiscard]] double score() const { return 0.1 * overlap + 0.9 * fit; }
+  [[nodiscard]] double score() const { return ranking ? *ranking : 0.1 * overlap + 0.9 * fit; }
   /// What iterates of one pose are ranked by: the area still grows where the outline already fits all round.
   [[nodiscard]] double closeness() const {
+    if (ranking) return *ranking + overlap;
     return fit + (std::min(rim_inliers, image_inliers) > 0.85 ? overlap : 0.0);
   }
   /// How much of the stencil a pose explains, 0..1.
   [[nodiscard]] double explained() const { return 0.25 * overlap + 0.375 * (rim_inliers + image_inliers); }
+  std::optional<double> ranking;  // of evidence that has a measure of its own
+  double lit = 0;                 // of the colours inside, by light on the mesh; 0..1; 0 where nobody asked
+};
+
+/// How widely an evidence wants its poses searched.
+struct SearchPlan {
+  std::size_t candidates = 48;               // of the coarse search
+  std::size_t candidates_with_effort = 300;  // where the first ones are no good
+  double distinct_place = 0.1;               // of candidates alike in rotation: in radii of the mesh,
+  double distinct_size = 0.1;                // and in logarithms of their sizes
+  std::size_t most_frames = 1000;            // of all, those where some view fits best
+  double good_score = 0.9;                   // at the coarse level: with less the evidence is not trusted
+  double glance_reach_px = 16;
+  std::size_t kept_after_glance = 16;
+  std::size_t kept_with_effort = 32;
+  std::size_t kept_for_middle = 8;
+  std::size_t kept_for_full = 4;
+  // What is worse than the best by more than this is no rival of it at the next level either.
+  double coarse_margin = 0.15;
+  double middle_margin = 0.08;
 };
 
 /// The search, the refinement and the verdict ask for nothing else. Levels go from coarse to the photo's
@@ -62,6 +84,8 @@ class Evidence {
     virtual void score(const PolarBits& view, std::span<float, polar_angles> scores) const = 0;
   };
   [[nodiscard]] virtual std::unique_ptr<RollScores> rolls(const PolarFrame& frame) const = 0;
+
+  [[nodiscard]] virtual SearchPlan plan() const { return {}; }
 
   /// The outline at level 0, which may be wrong in part; nothing for evidence without one. It is searched
   /// instead of further frames.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "chamfer_search.hpp"
 #include "drape/base/parallel.hpp"
@@ -17,22 +18,13 @@ namespace {
 constexpr double radians = std::numbers::pi / 180;
 constexpr int atlas_views = 400;
 constexpr int outline_views = 1000;
+constexpr std::size_t glanced_views = 10;  // one of so many tells whether a frame is worth all of them
 constexpr double usual_perspective = 0.2;
 constexpr double distinct_rad = 10 * radians;
 constexpr double distinct_match_rad = 6 * radians;  // of candidates of the coarse search
 constexpr double same_pose_rad = 3 * radians;       // of refined ones
-constexpr std::size_t candidates_at_first = 48;
-constexpr std::size_t candidates_with_effort = 300;
 constexpr std::size_t chamfer_matches_kept = 2500;
-constexpr std::size_t kept_after_glance = 16;
-constexpr std::size_t kept_with_effort = 32;
-constexpr std::size_t kept_for_middle = 8;
-constexpr std::size_t kept_for_full = 4;
-// What is worse than the best by more than this is no rival of it at the next level either.
-constexpr double coarse_margin = 0.15;
-constexpr double middle_margin = 0.08;
 constexpr double principal_point_gain = 200;  // of chi squared
-constexpr double good_score = 0.9;            // at the coarse level: with less the stencil is not trusted
 
 struct Candidate {
   float score = 0;
@@ -81,6 +73,7 @@ class CoarseSearch {
   [[nodiscard]] OutlinePose pose_of(const Candidate& candidate, const PolarFrame& frame) const;
   [[nodiscard]] OutlinePose pose_of(const AtlasView& view, double angle, double scale,
                                     const Eigen::Vector2d& shift, const Eigen::Vector2d& center) const;
+  [[nodiscard]] std::vector<PolarFrame> promising(std::vector<PolarFrame> frames) const;
 
   const OutlineMesh& mesh_;
   const Evidence& evidence_;
@@ -118,8 +111,34 @@ OutlinePose CoarseSearch::pose_of(const Candidate& candidate, const PolarFrame& 
                  center);
 }
 
+// Where some of the views fit best, in the order given.
+std::vector<PolarFrame> CoarseSearch::promising(std::vector<PolarFrame> frames) const {
+  const std::size_t most = evidence_.plan().most_frames;
+  if (frames.size() <= most) return frames;
+  std::vector<float> best(frames.size(), 0);
+  parallel_for(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::unique_ptr<Evidence::RollScores> rolls = evidence_.rolls(frames[f]);
+      for (std::size_t v = f % glanced_views; v < views_.size(); v += glanced_views) {
+        std::array<float, polar_angles> scores{};
+        rolls->score(views_[v].bits, scores);
+        best[f] = std::max(best[f], *std::max_element(scores.begin(), scores.end()));
+      }
+    }
+  });
+  std::vector<std::size_t> order(frames.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return best[a] > best[b]; });
+  order.resize(most);
+  std::sort(order.begin(), order.end());
+  std::vector<PolarFrame> kept;
+  for (const std::size_t f : order) kept.push_back(frames[f]);
+  return kept;
+}
+
 std::vector<OutlinePose> CoarseSearch::by_frames(int effort) const {
-  const std::vector<PolarFrame> frames = evidence_.frames(effort);
+  const std::vector<PolarFrame> frames = promising(evidence_.frames(effort));
   std::vector<std::vector<Candidate>> found(frames.size() * views_.size());
   parallel_for(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
@@ -160,14 +179,15 @@ std::vector<OutlinePose> CoarseSearch::by_outline() const {
 
 std::vector<OutlinePose> CoarseSearch::distinct(const std::vector<OutlinePose>& sorted, double apart_rad,
                                                 std::size_t most) const {
+  const SearchPlan plan = evidence_.plan();
   std::vector<OutlinePose> starts;
   for (const OutlinePose& pose : sorted) {
     if (starts.size() == most) break;
     if (settings_.allowed && !settings_.allowed(pose)) continue;
     const bool seen = std::any_of(starts.begin(), starts.end(), [&](const OutlinePose& better) {
       return angle_between(better.rotation, pose.rotation) < apart_rad &&
-             (better.shift - pose.shift).norm() < 0.1 * pose.scale &&
-             std::abs(std::log(better.scale / pose.scale)) < 0.1;
+             (better.shift - pose.shift).norm() < plan.distinct_place * pose.scale &&
+             std::abs(std::log(better.scale / pose.scale)) < plan.distinct_size;
     });
     if (!seen) starts.push_back(pose);
   }
@@ -291,7 +311,8 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
   PoseSearchResult result;
   const Refinement refinement(evidence, settings);
   const int last = evidence.levels() - 1;
-  const RefinementPlan glance{0, 5, 16, 6, 1.5, false};
+  const SearchPlan plan = evidence.plan();
+  const RefinementPlan glance{0, 5, plan.glance_reach_px, 6, 1.5, false};
   const RefinementPlan close_glance{0, 5, 8, 4, 1.5, false, true};
   const RefinementPlan coarse{0, 12, 8, 2, 1.0, false};
   const RefinementPlan middle{std::min(1, last), 8, 6, 2, 1.0, false};
@@ -304,24 +325,24 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
     progress.update(0.2, "comparing views");
     for (int effort = 0; effort < 2; ++effort) {
       const std::vector<OutlinePose> starts =
-          search.starts(effort, effort == 0 ? candidates_at_first : candidates_with_effort);
+          search.starts(effort, effort == 0 ? plan.candidates : plan.candidates_with_effort);
       result.statistics.candidates_listed = static_cast<int>(search.listed(effort));
       result.statistics.candidates_tried += static_cast<int>(starts.size());
       std::vector<RefinedPose> glanced =
           best_of(refinement.all(meshes.coarse, starts, effort == 0 ? glance : close_glance, progress),
-                  effort == 0 ? kept_after_glance : kept_with_effort);
+                  effort == 0 ? plan.kept_after_glance : plan.kept_with_effort);
       progress.update(effort == 0 ? 0.4 : 0.6, "refining");
       std::vector<RefinedPose> settled = refinement.all(meshes.coarse, poses_of(glanced), coarse, progress);
       progress.update(effort == 0 ? 0.5 : 0.7, "refining");
       refined.insert(refined.end(), settled.begin(), settled.end());
-      refined = best_of(std::move(refined), kept_with_effort);
-      if (refined.empty() || refined.front().agreement.explained() > good_score) break;
+      refined = best_of(std::move(refined), plan.kept_with_effort);
+      if (refined.empty() || refined.front().agreement.explained() > plan.good_score) break;
     }
   }
   result.statistics.coarse_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (settings.starts.empty()) {
-    refined = best_of(std::move(refined), kept_for_middle);
+    refined = best_of(std::move(refined), plan.kept_for_middle);
     const std::vector<OutlinePose> twins =
         with_mirror_twins(poses_of(best_of(refined, 2)), principal_axes_of(meshes.coarse));
     std::vector<RefinedPose> more = refinement.all(meshes.coarse, twins, coarse, progress);
@@ -329,15 +350,15 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
     if (settings.allowed)
       std::erase_if(refined, [&](const RefinedPose& r) { return !settings.allowed(r.pose); });
   }
-  refined = best_of(std::move(refined), kept_for_middle);
-  drop_beaten(refined, coarse_margin);
+  refined = best_of(std::move(refined), plan.kept_for_middle);
+  drop_beaten(refined, plan.coarse_margin);
   progress.update(0.75, "refining");
-  refined = best_of(refinement.all(meshes.middle, poses_of(refined), middle, progress), kept_for_full);
-  drop_beaten(refined, middle_margin);
+  refined = best_of(refinement.all(meshes.middle, poses_of(refined), middle, progress), plan.kept_for_full);
+  drop_beaten(refined, plan.middle_margin);
   progress.update(0.85, "refining");
   for (int level = std::min(2, last); level <= last; ++level) {
     const RefinementPlan fine{level, 8, 5, 1.5, 1.0, false};
-    refined = best_of(refinement.all(meshes.full, poses_of(refined), fine, progress), kept_for_full);
+    refined = best_of(refinement.all(meshes.full, poses_of(refined), fine, progress), plan.kept_for_full);
   }
   if (!refined.empty() && !settings.principal_point_known && !settings.lens.orthographic)
     refined.front() = with_free_principal_point(meshes.full, refined.front(), evidence, settings.lens);

@@ -66,6 +66,11 @@ std::optional<Eigen::Vector3d> free_axis_of(const RefinedPose& best, const Refin
 
 }  // namespace
 
+std::optional<PoseSigma> pose_sigma(const RefinedPose& pose, const LensPrior& lens) {
+  const std::optional<PoseCovariance> covariance = covariance_of(pose, lens);
+  return covariance ? std::optional<PoseSigma>(covariance->sigma) : std::nullopt;
+}
+
 PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior& lens) {
   PoseJudgement judgement;
   if (poses.empty()) {

@@ -22,4 +22,7 @@ struct PoseJudgement {
 /// `poses` are distinct, best first, of the evidence's last level.
 [[nodiscard]] PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior& lens);
 
+/// As the residuals of the pose's refinement tell it; nothing where there were none.
+[[nodiscard]] std::optional<PoseSigma> pose_sigma(const RefinedPose& pose, const LensPrior& lens);
+
 }  // namespace drape::alignment

@@ -4,9 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
 
+#include "color_appearance.hpp"
+#include "color_evidence.hpp"
+#include "color_occlusion.hpp"
+#include "color_verdict.hpp"
+#include "drape/alignment/overlap.hpp"
 #include "drape/base/error.hpp"
+#include "drape/rendering/renderer.hpp"
 #include "image_stencil.hpp"
 #include "photo_plane.hpp"
 #include "pose_search.hpp"
@@ -22,6 +29,7 @@ constexpr double radians = std::numbers::pi / 180;
 constexpr int coarse_faces = 1500;
 constexpr int middle_faces = 8000;
 constexpr int least_object_px = 8;
+constexpr double explained_weight = 0.5;  // of the look inside, against the outline's score
 
 MeshLevels mesh_levels(const TriangleMesh& mesh, const UnitSphere& sphere) {
   MeshLevels levels;
@@ -68,20 +76,41 @@ SearchSettings search_settings(const PhotoEvidence& evidence, const AlignOptions
   return settings;
 }
 
+// Colours are ranked by what is inside the outline, too.
+void rank_by_appearance(std::vector<RefinedPose>& poses, const PhotoEvidence& evidence,
+                        const TriangleMesh& mesh, const UnitSphere& sphere, const PhotoPlane& plane,
+                        Camera::Projection projection) {
+  rendering::Renderer renderer(mesh);
+  for (RefinedPose& pose : poses) {
+    const Camera camera = camera_of(pose.pose, sphere, projection, plane.principal_px(),
+                                    evidence.stencil.width(), evidence.stencil.height());
+    Agreement& fit = pose.agreement;
+    fit.lit = explained_colors(mesh, renderer, *evidence.photo, plane, camera);
+    fit.ranking = fit.score() * (1 + explained_weight * fit.lit) / (1 + explained_weight);
+  }
+  std::stable_sort(poses.begin(), poses.end(), [](const RefinedPose& a, const RefinedPose& b) {
+    return a.agreement.score() > b.agreement.score();
+  });
+}
+
 // The poses as cameras, the best first, with what is to be thought of them.
 Alignment judged(const std::vector<RefinedPose>& poses, const SearchSettings& settings,
                  const PhotoEvidence& evidence, const TriangleMesh& mesh, const UnitSphere& sphere,
-                 const PhotoPlane& plane, Camera::Projection projection) {
+                 const PhotoPlane& plane, const AlignOptions& options) {
   Alignment alignment;
+  alignment.evidence = options.evidence;
   alignment.camera.width = evidence.stencil.width();
   alignment.camera.height = evidence.stencil.height();
   std::vector<RefinedPose> ranked = poses;
-  PoseJudgement judgement = judge_poses(ranked, settings.lens);
+  const bool by_colors = alignment.evidence != EvidenceKind::stencil;
+  if (by_colors) rank_by_appearance(ranked, evidence, mesh, sphere, plane, options.projection);
+  PoseJudgement judgement =
+      by_colors ? judge_color_poses(ranked, settings.lens) : judge_poses(ranked, settings.lens);
   std::vector<Camera> cameras;
   for (const RefinedPose& pose : ranked)
-    cameras.push_back(camera_of(pose.pose, sphere, projection, plane.principal_px(), evidence.stencil.width(),
-                                evidence.stencil.height()));
-  if (judgement.rivals > 0 && evidence.photo != nullptr && plane.plain()) {
+    cameras.push_back(camera_of(pose.pose, sphere, options.projection, plane.principal_px(),
+                                evidence.stencil.width(), evidence.stencil.height()));
+  if (!by_colors && judgement.rivals > 0 && evidence.photo != nullptr && plane.plain()) {
     const std::vector<Camera> rivals(cameras.begin(),
                                      cameras.begin() + 1 + static_cast<std::ptrdiff_t>(judgement.rivals));
     const auto chosen =
@@ -109,30 +138,76 @@ Alignment judged(const std::vector<RefinedPose>& poses, const SearchSettings& se
   alignment.overlap_percent = 100 * best.overlap;
   alignment.inlier_fraction = 0.5 * (best.rim_inliers + best.image_inliers);
   if (alignment.inlier_fraction > 0) alignment.boundary_error_px = best.rms_px;
+  if (by_colors) {
+    alignment.inlier_fraction = best.image_inliers;
+    alignment.edge_support = best.rim_inliers;
+  }
   alignment.sigma = judgement.sigma;
   if (judgement.free_axis) alignment.free_axis = FreeAxis{sphere.center, *judgement.free_axis};
   return alignment;
+}
+
+// The outline filled, and unknown where something hides the object.
+Image8 visible_stencil(const TriangleMesh& mesh, const OutlineMesh& outline, const ColorEvidence& colors,
+                       const PhotoPlane& plane, const UnitSphere& sphere, const Camera& camera) {
+  Image8 stencil = rendering::Renderer(mesh).stencil(camera);
+  const std::optional<OutlinePose> pose = pose_of(camera, sphere, plane.principal_px());
+  if (!pose) return stencil;
+  OutlineDrawing drawing;
+  const Window& window = colors.finest().window;
+  drawing.draw(outline, *pose, window, false);
+  const Image8 hidden = hidden_pixels(colors.finest(), drawing);
+  for (int y = 0; y < stencil.height(); ++y)
+    for (int x = 0; x < stencil.width(); ++x) {
+      if (stencil.at(x, y) != stencil::object) continue;
+      const Eigen::Vector2d at = window.from_photo(Eigen::Vector2d(x + 0.5, y + 0.5) - plane.principal_px());
+      const int u = static_cast<int>(std::floor(at.x()));
+      const int v = static_cast<int>(std::floor(at.y()));
+      if (hidden.contains(u, v) && hidden.at(u, v) != 0) stencil.at(x, y) = stencil::unknown;
+    }
+  return stencil;
+}
+
+// What the options' kind of evidence says.
+std::unique_ptr<Evidence> chosen_evidence(const PhotoEvidence& evidence, const AlignOptions& options,
+                                          const PhotoPlane& plane) {
+  if (options.evidence == EvidenceKind::colour) {
+    if (evidence.photo == nullptr) throw config_error("align.evidence: colour needs the photo");
+    return std::make_unique<ColorEvidence>(*evidence.photo, plane, color_place(evidence));
+  }
+  if (options.evidence == EvidenceKind::segments) {
+    if (evidence.photo == nullptr || evidence.segments == nullptr)
+      throw config_error("align.evidence: segments needs the photo and its segments");
+    return std::make_unique<ColorEvidence>(*evidence.segments, plane, color_place(evidence));
+  }
+  check_stencil(evidence.stencil);
+  if (object_extent(evidence.stencil) < least_object_px)
+    throw input_error(
+        "the object in the stencil is too small: {} pixels at its longest, and it must be {} at least",
+        object_extent(evidence.stencil), least_object_px);
+  return std::make_unique<StencilEvidence>(evidence.stencil, plane);
 }
 
 }  // namespace
 
 Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& evidence,
                            const AlignOptions& options, const Progress& progress) {
-  check_stencil(evidence.stencil);
-  if (object_extent(evidence.stencil) < least_object_px)
-    throw input_error(
-        "the object in the stencil is too small: {} pixels at its longest, and it must be {} at least",
-        object_extent(evidence.stencil), least_object_px);
-  progress.update(0, "reading the outline");
+  progress.update(0, "reading the photo");
   const UnitSphere sphere = unit_sphere(mesh);
   const PhotoPlane plane(evidence.stencil.width(), evidence.stencil.height(), evidence.lens);
-  const StencilEvidence outline(evidence.stencil, plane);
+  const std::unique_ptr<Evidence> outline = chosen_evidence(evidence, options, plane);
   const MeshLevels meshes = mesh_levels(mesh, sphere);
   progress.update(0.05, "drawing views");
-  const SearchSettings settings = search_settings(evidence, options, plane, sphere);
-  const PoseSearchResult found = search_poses(meshes, outline, settings, progress.part(0.05, 0.95));
+  SearchSettings settings = search_settings(evidence, options, plane, sphere);
+  settings.principal_point_known |= options.evidence != EvidenceKind::stencil;
+  const PoseSearchResult found = search_poses(meshes, *outline, settings, progress.part(0.05, 0.95));
 
-  Alignment alignment = judged(found.poses, settings, evidence, mesh, sphere, plane, options.projection);
+  Alignment alignment = judged(found.poses, settings, evidence, mesh, sphere, plane, options);
+  if (const auto* colors = dynamic_cast<const ColorEvidence*>(outline.get());
+      colors && !found.poses.empty()) {
+    alignment.stencil = visible_stencil(mesh, meshes.full, *colors, plane, sphere, alignment.camera);
+    alignment.overlap_percent = overlap_percent(alignment.stencil, evidence.stencil);
+  }
   alignment.metrics.pass1_seconds = found.statistics.coarse_seconds;
   alignment.metrics.candidates_listed = found.statistics.candidates_listed;
   alignment.metrics.candidates_tried = found.statistics.candidates_tried;

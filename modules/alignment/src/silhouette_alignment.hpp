@@ -5,7 +5,7 @@
 
 namespace drape::alignment {
 
-/// Method::silhouette of align_photo.
+/// Method::silhouette of align_photo, by the one kind of evidence that the options name.
 [[nodiscard]] Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& evidence,
                                          const AlignOptions& options, const Progress& progress);
 

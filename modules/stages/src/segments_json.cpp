@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
 
 namespace drape::stages {
@@ -22,6 +23,13 @@ void write_segments(const std::filesystem::path& file, const segmentation::Segme
                                 {"chosen", segment.chosen},
                                 {"yaml", segment.yaml_that_picks_it}});
   write_file(file, json.dump(2) + "\n");
+}
+
+double read_confidence(const std::filesystem::path& file) {
+  const nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, false);
+  if (!json.is_object() || !json.contains("confidence") || !json["confidence"].is_number())
+    throw input_error("{}: holds no confidence", file.string());
+  return json["confidence"];
 }
 
 }  // namespace drape::stages

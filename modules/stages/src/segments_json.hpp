@@ -11,4 +11,7 @@ namespace drape::stages {
 /// "mean_color", "chosen", "yaml"}]}
 void write_segments(const std::filesystem::path& file, const segmentation::Segmentation& segmentation);
 
+/// The confidence that such a file holds. Error{input} for another file.
+[[nodiscard]] double read_confidence(const std::filesystem::path& file);
+
 }  // namespace drape::stages

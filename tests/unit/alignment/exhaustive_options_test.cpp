@@ -48,6 +48,7 @@ TEST_F(ExhaustiveOption, AreAllDescribed) {
   std::vector<std::string> names;
   for (const Option& option : options_of(all)) names.push_back(option.name);
   EXPECT_EQ(names, (std::vector<std::string>{"method",
+                                             "evidence",
                                              "projection",
                                              "focal_px",
                                              "fov_deg",

@@ -1,6 +1,7 @@
 // Mesh and photo in, camera out.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,8 +19,17 @@ namespace drape::alignment {
 
 enum class Method { silhouette, exhaustive };
 
+/// What of the photo the mesh is compared with.
+enum class EvidenceKind {
+  automatic,  // the stencil; where that proves no pose and the photo is there, its colours as well
+  stencil,
+  segments,  // any union of the photo's segments
+  colour,
+};
+
 struct AlignOptions {
   Method method = Method::silhouette;
+  EvidenceKind evidence = EvidenceKind::automatic;
   Camera::Projection projection = Camera::Projection::perspective;
   std::optional<double> focal_px;
   std::optional<double> fov_deg;
@@ -34,6 +44,18 @@ inline void describe(Binder& b, AlignOptions& o) {
   b.choice("method", o.method, {{"silhouette", Method::silhouette}, {"exhaustive", Method::exhaustive}},
            "silhouette: all rotations at once, then the outline to fractions of a pixel; exhaustive: every "
            "rotation on a grid, then refined (the thesis's method)");
+  b.choice(
+      "evidence", o.evidence,
+      {{"auto", EvidenceKind::automatic},
+       {"stencil", EvidenceKind::stencil},
+       {"segments", EvidenceKind::segments},
+       {"colour", EvidenceKind::colour}},
+      "silhouette: what of the photo the mesh is compared with. stencil: the outline that segment found; "
+      "segments: any union of segment's segments; "
+      "colour: the photo's colours, inside box_px, round click_px or anywhere, with no need of a stencil; "
+      "auto: a given mask alone; else the stencil, and where that proves no pose the colours as well, and "
+      "the "
+      "better verdict wins");
   b.choice(
       "projection", o.projection,
       {{"perspective", Camera::Projection::perspective}, {"orthographic", Camera::Projection::orthographic}},
@@ -83,6 +105,15 @@ struct PhotoEvidence {
   std::optional<Camera> initial_camera;
   /// What points upwards in the mesh's frame; with AlignOptions::max_roll_deg.
   std::optional<Eigen::Vector3d> up;
+  /// How far the stencil may be trusted, 0..1; 1: it was given, and no other evidence is asked.
+  double stencil_confidence = 1;
+  /// For colours and segments, in photo pixels: x, y, width, height of a box round the object with some
+  /// margin.
+  std::optional<std::array<double, 4>> box_px;
+  /// For colours and segments, in photo pixels: a point inside the object. Of no use beside a box.
+  std::optional<std::array<double, 2>> click_px;
+  /// For EvidenceKind::segments: labels from 0, of the stencil's size.
+  const Image<std::int32_t>* segments = nullptr;
 };
 
 enum class Verdict { accept, review, reject };
@@ -123,6 +154,12 @@ struct Alignment {
   std::vector<std::string> reasons;            // for the verdict, in words
   std::vector<AlignmentCandidate> candidates;  // distinct poses, best first; the first is the chosen one
   /// The following only by Method::silhouette.
+  EvidenceKind evidence = EvidenceKind::stencil;  // what it was found by
+  /// Share of the outline that lies on an edge of the photo, 0..1; only by colours or segments.
+  std::optional<double> edge_support;
+  /// Only by colours or segments: the outline filled, unknown where something hides the object; of the
+  /// photo's size.
+  Image8 stencil;
   double inlier_fraction = 0;               // of the two outlines' length: what lies on the other one, 0..1
   std::optional<double> boundary_error_px;  // root mean square over those; nothing if there are none
   std::optional<PoseSigma> sigma;
