@@ -51,6 +51,7 @@ ValueWords value_words() {
     for (const Option& option : stage.instantiate().options) {
       words["KEY=VALUE"].push_back(stage.name + "." + option.name + "=");
       if (stage.name == "segment" && option.name == "method") words["METHOD"] = option.choices;
+      if (stage.name == "align" && option.name == "evidence") words["EVIDENCE"] = option.choices;
     }
   }
   return words;

@@ -133,6 +133,20 @@ struct SegmentArguments {
 /// Finds the object in one photo: segments.png, segments.json and stencil.png.
 void segment_command(const SegmentArguments& arguments, const std::atomic<bool>& stop);
 
+struct AlignArguments {
+  std::filesystem::path mesh;
+  std::filesystem::path photo;
+  std::string evidence;       // as align.evidence; empty: its default
+  std::vector<double> box;    // x, y, width, height; or empty
+  std::vector<double> click;  // x, y; or empty
+  std::filesystem::path mask;
+  std::filesystem::path output;  // empty: <photo>-aligned beside the photo
+  ProgressMode progress = ProgressMode::automatic;
+};
+/// Finds the camera of one photo of a mesh: cameras.json, stencil.png and overlay.png, and the segments that
+/// were found on the way.
+void align_command(const AlignArguments& arguments, const std::atomic<bool>& stop);
+
 /// drape, its compiler, and the libraries: name and version.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> versions();
 

@@ -91,6 +91,7 @@ struct CommandLine {
   bool reference_check = false;
   SimulateArguments simulate;
   SegmentArguments segment;
+  AlignArguments align;
   GcArguments gc;
   DiffArguments diff;
   ReportArguments report;
@@ -123,6 +124,7 @@ struct CommandLine {
     add_reference();
     add_simulate();
     add_segment();
+    add_align();
     add_completion();
     add_manual();
     app.footer(
@@ -438,6 +440,34 @@ struct CommandLine {
       action = [this] {
         segment.progress = quiet ? ProgressMode::none : progress;
         segment_command(segment, stop_requested);
+        return 0;
+      };
+    });
+  }
+
+  void add_align() {
+    CLI::App* sub = command("align", "Find the camera of one photo of a mesh",
+                            "drape align statue.ply photo.jpg --box 120,80,400,600 -o /tmp/aligned");
+    sub->add_option("mesh", align.mesh, "The mesh")->required()->type_name("MESH");
+    sub->add_option("photo", align.photo, "The photo")->required()->type_name("PHOTO");
+    sub->add_option("--evidence", align.evidence, "As align.evidence of a configuration; default: auto")
+        ->type_name("EVIDENCE");
+    sub->add_option("--box", align.box, "A box around the object, in pixels")
+        ->delimiter(',')
+        ->expected(4)
+        ->type_name("X,Y,WIDTH,HEIGHT");
+    sub->add_option("--click", align.click, "A point inside the object, in pixels")
+        ->delimiter(',')
+        ->expected(2)
+        ->type_name("X,Y");
+    sub->add_option("--mask", align.mask, "White where the object is")->type_name("FILE");
+    sub->add_option("-o,--output", align.output, "Folder to write; default: PHOTO-aligned beside it")
+        ->type_name("DIR");
+    add_progress(sub);
+    sub->callback([this] {
+      action = [this] {
+        align.progress = quiet ? ProgressMode::none : progress;
+        align_command(align, stop_requested);
         return 0;
       };
     });

@@ -4,20 +4,9 @@
 #include "drape/base/error.hpp"
 #include "drape/pipeline/config.hpp"
 #include "drape/stages/segment_files.hpp"
+#include "photo_arguments.hpp"
 
 namespace drape::app {
-namespace {
-
-template <std::size_t count>
-std::optional<std::array<double, count>> numbers_of(const std::vector<double>& given) {
-  if (given.empty()) return std::nullopt;
-  std::array<double, count> numbers{};
-  std::copy_n(given.begin(), count, numbers.begin());  // their number was checked with the command line
-  return numbers;
-}
-
-}  // namespace
-
 void segment_command(const SegmentArguments& arguments, const std::atomic<bool>& stop) {
   segmentation::SegmentOptions options;
   if (!arguments.method.empty()) {
@@ -34,14 +23,7 @@ void segment_command(const SegmentArguments& arguments, const std::atomic<bool>&
   input.background = arguments.background;
   input.box_px = numbers_of<4>(arguments.box);
   input.click_px = numbers_of<2>(arguments.click);
-  const std::filesystem::path folder =
-      arguments.output.empty()
-          ? arguments.photo.parent_path() / (arguments.photo.stem().string() + "-segments")
-          : arguments.output;
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed)
-    throw Error(ErrorCode::io, fmt::format("{}: cannot be made: {}", folder.string(), failed.message()));
+  const std::filesystem::path folder = photo_folder(arguments.output, arguments.photo, "-segments");
   ProgressDisplay display(arguments.progress);
   const Progress progress(
       [&](double fraction, std::string_view what) { display.show("segment", fraction, what); }, &stop);

@@ -22,7 +22,7 @@ TEST(CommandLine, VersionNamesTheLibraries) {
 
 TEST(CommandLine, EveryHelpShowsAnExample) {
   for (const char* command : {"run", "status", "explain", "validate", "new", "make", "batch", "sweep", "gc",
-                              "diff", "adopt", "reference", "simulate"}) {
+                              "diff", "adopt", "reference", "simulate", "segment", "align"}) {
     const Outcome outcome = run_drape({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_TRUE(contains(outcome.out, std::string("Example:\n  drape ") + command)) << outcome.out;
@@ -60,6 +60,27 @@ TEST(CommandLine, MakeKeepsAConfigurationThatWasEdited) {
   fs::remove(folder / "all/model/model.glb");
   EXPECT_EQ(run_drape({"run", "all/drape.yaml"}, folder.path()).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder / "all/model/model.glb"));
+}
+
+TEST(CommandLine, AlignFindsTheCameraOfOnePhoto) {
+  const ScratchFolder folder;
+  const std::string mesh = source("sample_scans/teapot/truth_mesh.ply").string();
+  const std::string photo = source("sample_scans/teapot/photos/000.jpg").string();
+  const auto align = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"-q", "align", mesh, photo, "-o", (folder / "found").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_drape(arguments, folder.path());
+  };
+  const Outcome found = align({"--evidence", "colour", "--box", "200,100,900,800"});
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_TRUE(contains(found.out, "by its colour")) << found.out;
+  for (const char* name : {"found/cameras.json", "found/overlay.png", "found/stencil.png"})
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+  EXPECT_TRUE(contains(read_file(folder / "found/cameras.json"), "\"evidence\": \"colour\""));
+  EXPECT_EQ(align({"--box", "5000,100,30,30"}).exit_code, 64);
+  EXPECT_EQ(align({"--box", "1,2,3"}).exit_code, 64);
+  EXPECT_EQ(align({"--evidence", "tea"}).exit_code, 64);
+  EXPECT_EQ(align({"--mask", mesh}).exit_code, 65);
 }
 
 TEST(CommandLine, NewWritesAConfigurationThatIsValid) {
