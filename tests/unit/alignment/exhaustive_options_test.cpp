@@ -54,6 +54,8 @@ TEST_F(ExhaustiveOption, AreAllDescribed) {
                                              "fov_deg",
                                              "max_roll_deg",
                                              "initial_camera",
+                                             "block",
+                                             "share_focal",
                                              "first_pass_step_deg",
                                              "refine_start_deg",
                                              "min_step_deg",
