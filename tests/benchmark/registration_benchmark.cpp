@@ -63,9 +63,11 @@ void compare() {
   const Rigid3 guess = off * truth;
 
   Rigid3 ours;
+  int steps = 0;
   const double our_seconds = best_seconds([&] {
     const std::vector<std::optional<Rigid3>> given{Rigid3::Identity(), guess};
     const auto found = registration::register_scans(scans, given, {}, {});
+    steps = found.iterations;
     ours = found.scans[0].world_from_scan.inverse() * found.scans[1].world_from_scan;
   });
   Rigid3 theirs = Rigid3::Identity();
@@ -84,8 +86,8 @@ void compare() {
   const Error their_error = error_of(theirs, truth, scans[1].cloud);
   fmt::print("{} and {} points, from raw points to the merged cloud\n", scans[0].cloud.size(),
              scans[1].cloud.size());
-  fmt::print("drape     {:.3f} s  {:.3f} deg  {:.3f} mm\n", our_seconds, our_error.degrees,
-             our_error.millimetres);
+  fmt::print("drape     {:.3f} s  {:.3f} deg  {:.3f} mm, {} steps\n", our_seconds, our_error.degrees,
+             our_error.millimetres, steps);
   fmt::print("PCL GICP  {:.3f} s  {:.3f} deg  {:.3f} mm\n", their_seconds, their_error.degrees,
              their_error.millimetres);
   fmt::print("drape takes 1/{:.1f} of the time\n", their_seconds / our_seconds);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -10,10 +11,12 @@
 #include "drape/ingest/spatial_order.hpp"
 #include "islands.hpp"
 #include "kept_points.hpp"
+#include "lattice_distances.hpp"
 #include "lattice_view.hpp"
 #include "mixed_pixels.hpp"
 #include "neighborhoods.hpp"
 #include "point_filters.hpp"
+#include "spacing_parts.hpp"
 #include "statistical_outliers.hpp"
 #include "support_plane.hpp"
 #include "surface_normals.hpp"
@@ -23,10 +26,47 @@ namespace {
 
 using Flags = std::vector<std::uint8_t>;
 
-// Takes flagged points out of the scan and counts them under the filter's name.
-void drop(CleanedScan& cleaned, const std::string& filter, const Flags& flags) {
-  cleaned.dropped[filter] = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
-  cleaned.scan = without_points(std::move(cleaned.scan), flags);
+struct Filter {
+  std::string name;
+  Flags flags;
+};
+
+// The scan under way, and its points along a space-filling curve.
+struct Cleaning {
+  CleanedScan cleaned;
+  std::vector<std::uint32_t> order;
+
+  [[nodiscard]] RangeScan& scan() { return cleaned.scan; }
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return cleaned.scan.cloud.positions; }
+
+  /// Takes flagged points out, and counts each under the first filter that flags it.
+  void drop(const std::vector<Filter>& filters);
+  void drop(const std::string& name, Flags flags) { drop({Filter{name, std::move(flags)}}); }
+};
+
+void Cleaning::drop(const std::vector<Filter>& filters) {
+  Flags any(points().size(), 0);
+  std::size_t dropped = 0;
+  for (const Filter& filter : filters) {
+    std::size_t& count = cleaned.dropped[filter.name];
+    for (std::size_t i = 0; i < filter.flags.size(); ++i)
+      if (filter.flags[i] != 0 && any[i] == 0) {
+        any[i] = 1;
+        ++count;
+        ++dropped;
+      }
+  }
+  if (dropped == 0) return;
+  cleaned.scan = without_points(std::move(cleaned.scan), any);
+  if (order.empty()) return;
+  std::vector<std::uint32_t> new_index(any.size());
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < any.size(); ++i) {
+    new_index[i] = kept;
+    kept += any[i] == 0 ? 1 : 0;
+  }
+  std::erase_if(order, [&](std::uint32_t i) { return any[i] != 0; });
+  for (std::uint32_t& i : order) i = new_index[i];
 }
 
 Flags not_finite(const std::vector<Eigen::Vector3d>& points) {
@@ -35,9 +75,9 @@ Flags not_finite(const std::vector<Eigen::Vector3d>& points) {
   return flags;
 }
 
-Flags duplicates(const std::vector<Eigen::Vector3d>& points) {
+// Equal points lie side by side in Morton order, the first of them first.
+Flags duplicates(const std::vector<Eigen::Vector3d>& points, const std::vector<std::uint32_t>& order) {
   Flags flags(points.size(), 0);
-  const auto order = morton_order(points);  // equal points lie side by side, the first of them first
   for (std::size_t i = 1; i < order.size(); ++i)
     if (points[order[i]] == points[order[i - 1]]) flags[order[i]] = 1;
   return flags;
@@ -49,68 +89,85 @@ bool has_sound_normals(const PointCloud& cloud) {
                      [](const Eigen::Vector3f& n) { return n.allFinite() && n.squaredNorm() > 0; });
 }
 
-// New normals, fitted to the kept points alone, where a dropped point took part in the fit.
-void refit_beside_dropped(std::vector<Eigen::Vector3f>& normals, const OrderedPoints& before,
-                          const Flags& dropped, const std::vector<double>& reaches, std::size_t neighbors,
-                          const std::vector<Eigen::Vector3d>& all_points) {
+// The kept points in whose plane fit a dropped point took part.
+std::vector<std::uint32_t> touched_by_dropped(const OrderedPoints& points, const Flags& dropped,
+                                              const std::vector<float>& reaches) {
   // A few points reach very far, and looking around every dropped one that far would take for ever: they are
   // fitted anew in any case.
-  std::vector<double> sorted = reaches;
+  std::vector<float> sorted = reaches;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   if (!sorted.empty()) std::nth_element(sorted.begin(), middle, sorted.end());
-  const double far = sorted.empty() ? 0.0 : 4 * *middle;
+  const float far = sorted.empty() ? 0.0F : 4 * *middle;
   Flags touched(dropped.size(), 0);
-  std::vector<Eigen::Vector3d> kept;
-  for (std::size_t i = 0; i < dropped.size(); ++i) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::uint32_t i = points.original(k);
     if (dropped[i] == 0) {
-      kept.push_back(all_points[i]);
       if (reaches[i] > far) touched[i] = 1;
       continue;
     }
-    for (const Neighbor& near : before.tree().within(all_points[i], far)) {
-      const std::uint32_t other = before.original(near.index);
-      if (std::sqrt(near.squared_distance) <= reaches[other]) touched[other] = 1;
-    }
+    points.within(points.points()[k], static_cast<double>(far), [&](std::uint32_t near) {
+      const std::uint32_t other = points.original(near);
+      if ((points.points()[near] - points.points()[k]).norm() <= static_cast<double>(reaches[other]))
+        touched[other] = 1;
+    });
   }
-  std::vector<std::size_t> targets;
-  std::vector<Eigen::Vector3d> queries;
-  for (std::size_t i = 0; i < dropped.size(); ++i)
-    if (touched[i] != 0 && dropped[i] == 0) {
-      targets.push_back(i);
-      queries.push_back(all_points[i]);
-    }
-  if (targets.empty()) return;
-  const auto fitted = normals_at(OrderedPoints(kept), queries, neighbors);
-  for (std::size_t i = 0; i < targets.size(); ++i) normals[targets[i]] = fitted[i];
+  std::vector<std::uint32_t> indices;
+  for (std::uint32_t i = 0; i < touched.size(); ++i)
+    if (touched[i] != 0 && dropped[i] == 0) indices.push_back(i);
+  return indices;
 }
 
-// Statistical outliers out, unoriented normals in: for a scan without a grid both from one pass over the
-// neighbourhoods.
-void drop_outliers_and_fit_normals(CleanedScan& cleaned, const CleanOptions& options, bool own_normals,
-                                   double spacing) {
-  RangeScan& scan = cleaned.scan;
-  const bool fit_here = !own_normals && !scan.grid;
-  const std::size_t fit_neighbors = fit_here ? neighbors_in_disc(options.normal_radius_spacings) : 0;
-  const std::size_t distance_neighbors =
-      options.outlier_sigma > 0 ? static_cast<std::size_t>(options.outlier_neighbors) : 0;
+// New normals for some points, fitted to the kept points alone.
+void refit(std::vector<Eigen::Vector3f>& normals, const std::vector<std::uint32_t>& which,
+           const OrderedPoints& all, const Flags& dropped, const std::vector<Eigen::Vector3d>& points,
+           std::size_t neighbors) {
+  if (which.empty()) return;
+  std::vector<std::uint32_t> kept;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (dropped[all.original(k)] == 0) kept.push_back(all.original(k));
+  std::vector<Eigen::Vector3d> queries;
+  for (const std::uint32_t i : which) queries.push_back(points[i]);
+  const auto fitted = normals_at(OrderedPoints(points, std::move(kept)), queries, neighbors);
+  for (std::size_t i = 0; i < which.size(); ++i) normals[which[i]] = fitted[i];
+}
 
-  if (fit_neighbors > 0 || distance_neighbors > 0) {
-    const OrderedPoints ordered(scan.cloud.positions);
-    Neighborhoods found = measure_neighborhoods(ordered, distance_neighbors, fit_neighbors);
-    Flags outlier(scan.cloud.size(), 0);
-    if (distance_neighbors > 0) {
-      const LocalSpacing local(scan, spacing);
-      for (std::size_t i = 0; i < scan.cloud.size(); ++i)
-        found.mean_distances[i] /= std::max(local.ratio(scan.cloud.positions[i]), 1e-12);
-      outlier = statistical_outliers(found.mean_distances, options.outlier_sigma);
-    }
-    if (fit_here) {
-      refit_beside_dropped(found.normals, ordered, outlier, found.reaches, fit_neighbors,
-                           scan.cloud.positions);
-      scan.cloud.normals = std::move(found.normals);
-    }
-    drop(cleaned, "outlier", outlier);
+// Sparse points and statistical outliers out, unoriented normals in: for a scan without a grid all from one
+// pass over the neighbourhoods.
+void drop_outliers_and_fit_normals(Cleaning& cleaning, const OrderedPoints& ordered,
+                                   const CleanOptions& options, bool own_normals, double spacing) {
+  RangeScan& scan = cleaning.scan();
+  const bool fit_here = !own_normals && !(scan.grid && spacing > 0);
+  const std::size_t outlier_neighbors =
+      options.outlier_sigma > 0 ? static_cast<std::size_t>(options.outlier_neighbors) : 0;
+  const bool by_lattice = scan.grid && outlier_neighbors > 0;
+  const NeighborhoodSpec spec{
+      .distance_neighbors = by_lattice ? 0 : outlier_neighbors,
+      .normal_neighbors = fit_here ? neighbors_in_disc(options.normal_radius_spacings) : 0,
+      .rank =
+          options.outlier_radius_spacings > 0 ? static_cast<std::size_t>(options.outlier_radius_points) : 0};
+  Neighborhoods found = measure_neighborhoods(ordered, spec);
+  const LocalSpacing local(scan, spacing);
+  Flags sparse(found.rank_distances.size());
+  for (std::size_t i = 0; i < sparse.size(); ++i)
+    sparse[i] = static_cast<double>(found.rank_distances[i]) >
+                        options.outlier_radius_spacings * local.at(cleaning.points()[i])
+                    ? 1
+                    : 0;
+  std::vector<double> distances(found.mean_distances.begin(), found.mean_distances.end());
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    distances[i] /= std::max(local.ratio(cleaning.points()[i]), 1e-12);
+  if (by_lattice) distances = lattice_distances(scan, ordered, local, outlier_neighbors);
+  const Flags outlier = statistical_outliers(distances, options.outlier_sigma);
+
+  if (fit_here) {
+    Flags dropped(scan.cloud.size(), 0);
+    for (const Flags* flags : {&std::as_const(sparse), &outlier})
+      for (std::size_t i = 0; i < flags->size(); ++i) dropped[i] |= (*flags)[i];
+    refit(found.normals, touched_by_dropped(ordered, dropped, found.reaches), ordered, dropped,
+          cleaning.points(), spec.normal_neighbors);
+    scan.cloud.normals = std::move(found.normals);
   }
+  cleaning.drop({{"sparse", sparse}, {"outlier", outlier}});
   if (!own_normals && !fit_here)
     scan.cloud.normals = unoriented_normals(scan, spacing, options.normal_radius_spacings);
   for (Eigen::Vector3f& normal : scan.cloud.normals) normal.normalize();
@@ -125,13 +182,13 @@ std::vector<double> incidence_cosines(const RangeScan& scan, const ScanView& vie
   return cosines;
 }
 
-void drop_grazing(CleanedScan& cleaned, const ScanView& view, double max_incidence_deg) {
-  const std::vector<double> cosines = incidence_cosines(cleaned.scan, view);
+Flags grazing(const RangeScan& scan, const ScanView& view, double max_incidence_deg) {
+  if (max_incidence_deg >= 90) return {};
+  const std::vector<double> cosines = incidence_cosines(scan, view);
   const double least = std::cos(max_incidence_deg * std::numbers::pi / 180);
-  Flags grazing(cosines.size());
-  for (std::size_t i = 0; i < cosines.size(); ++i)
-    grazing[i] = max_incidence_deg < 90 && cosines[i] < least ? 1 : 0;
-  drop(cleaned, "grazing", grazing);
+  Flags flags(cosines.size());
+  for (std::size_t i = 0; i < cosines.size(); ++i) flags[i] = cosines[i] < least ? 1 : 0;
+  return flags;
 }
 
 std::vector<float> confidences(const RangeScan& scan, const ScanView& view) {
@@ -149,38 +206,45 @@ std::vector<float> confidences(const RangeScan& scan, const ScanView& view) {
 }  // namespace
 
 CleanedScan clean_scan(const RangeScan& raw, const CleanOptions& options, const Progress& progress) {
-  CleanedScan cleaned{raw, {}};
-  RangeScan& scan = cleaned.scan;
+  Cleaning cleaning{{raw, {}}, {}};
+  RangeScan& scan = cleaning.scan();
   progress.update(0, "cleaning " + raw.file);
-  drop(cleaned, "not_finite", not_finite(scan.cloud.positions));
-  drop(cleaned, "duplicate", duplicates(scan.cloud.positions));
-  drop(cleaned, "cropped", outside_of_box(scan, options.crop_box));
-  drop(cleaned, "intensity", outside_of_intensities(scan, options.min_intensity, options.max_intensity));
-  const double raw_spacing = point_spacing(scan);
+  cleaning.drop("not_finite", not_finite(scan.cloud.positions));
+  cleaning.order = morton_order(scan.cloud.positions);
+  cleaning.drop({{"duplicate", duplicates(scan.cloud.positions, cleaning.order)},
+                 {"cropped", outside_of_box(scan, options.crop_box)},
+                 {"intensity", outside_of_intensities(scan, options.min_intensity, options.max_intensity)}});
   const ScanView view = view_or_lattice_axis(scan);
-  if (options.support_plane == SupportPlane::drop)
-    drop(cleaned, "support_plane", support_plane(scan, view, options.support_plane_spacings * raw_spacing));
+  std::optional<double> spacing_before = lattice_spacing(scan);
+  if (options.support_plane == SupportPlane::drop) {
+    if (!spacing_before)
+      spacing_before = neighbor_spacing(OrderedPoints(scan.cloud.positions, cleaning.order));
+    cleaning.drop("support_plane",
+                  support_plane(scan, view, options.support_plane_spacings * *spacing_before));
+  }
 
   progress.update(0.2);
-  drop(cleaned, "mixed_pixel", mixed_pixels(scan, view, options.mixed_pixel_angle_deg));
+  cleaning.drop("mixed_pixel", mixed_pixels(scan, view, options.mixed_pixel_angle_deg));
   const bool own_normals = options.normals == Normals::automatic && has_sound_normals(scan.cloud);
-  drop(cleaned, "sparse",
-       sparse_points(scan, raw_spacing, options.outlier_radius_spacings * raw_spacing,
-                     static_cast<std::size_t>(options.outlier_radius_points)));
-  drop_outliers_and_fit_normals(cleaned, options, own_normals, raw_spacing);
+  const double raw_spacing = [&] {
+    const OrderedPoints ordered(scan.cloud.positions, cleaning.order);
+    const double spacing = spacing_before ? *spacing_before : neighbor_spacing(ordered);
+    drop_outliers_and_fit_normals(cleaning, ordered, options, own_normals, spacing);
+    return spacing;
+  }();
 
   progress.update(0.7);
   if (!own_normals || view.kind != ScanView::Kind::unknown)
     scan.cloud.normals = oriented_normals(std::move(scan.cloud.normals), scan, view);
-  drop_grazing(cleaned, view, options.max_incidence_deg);
-  drop(cleaned, "island",
-       small_islands(scan, view, raw_spacing, options.island_gap_spacings,
-                     static_cast<std::size_t>(options.min_island_points)));
+  cleaning.drop("grazing", grazing(scan, view, options.max_incidence_deg));
+  cleaning.drop("island", small_islands(scan, view, raw_spacing, options.island_gap_spacings,
+                                        static_cast<std::size_t>(options.min_island_points), cleaning.order));
   scan.cloud.confidences = confidences(scan, view);
-  drop(cleaned, "thinned", all_but_best_seen(scan.cloud, options.thin_voxel_spacings * raw_spacing));
-  scan.spacing = point_spacing(scan);
+  cleaning.drop("thinned", all_but_best_seen(scan.cloud, options.thin_voxel_spacings * raw_spacing));
+  const std::optional<double> spacing = lattice_spacing(scan);
+  scan.spacing = spacing ? *spacing : neighbor_spacing(OrderedPoints(scan.cloud.positions, cleaning.order));
   progress.update(1);
-  return cleaned;
+  return std::move(cleaning.cleaned);
 }
 
 }  // namespace drape::ingest

@@ -23,7 +23,8 @@ std::vector<Eigen::Vector3f> unoriented_normals(const RangeScan& scan, double sp
                                                 double radius_spacings) {
   const auto& points = scan.cloud.positions;
   const std::size_t neighbors = neighbors_in_disc(radius_spacings);
-  if (!scan.grid || !(spacing > 0)) return measure_neighborhoods(OrderedPoints(points), 0, neighbors).normals;
+  if (!scan.grid || !(spacing > 0))
+    return measure_neighborhoods(OrderedPoints(points), {.normal_neighbors = neighbors}).normals;
 
   std::vector<Eigen::Vector3f> normals = lattice_normals(scan, LocalSpacing(scan, spacing), radius_spacings);
   std::vector<std::size_t> left;

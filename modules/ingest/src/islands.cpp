@@ -72,7 +72,8 @@ std::vector<std::uint32_t> groups_of(const std::vector<Cube>& cubes) {
 }  // namespace
 
 std::vector<std::uint8_t> small_islands(const RangeScan& scan, const ScanView& view, double spacing,
-                                        double gap_spacings, std::size_t least_points) {
+                                        double gap_spacings, std::size_t least_points,
+                                        std::span<const std::uint32_t> order) {
   std::vector<std::uint8_t> small(scan.cloud.size(), 0);
   if (scan.cloud.empty() || !(spacing > 0) || least_points < 2) return small;
   const std::vector<Eigen::Vector3d> coordinates = sample_coordinates(scan, view, spacing);
@@ -81,18 +82,32 @@ std::vector<std::uint8_t> small_islands(const RangeScan& scan, const ScanView& v
     return Cube{static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
                 static_cast<std::int64_t>(cell.z())};
   };
-  std::vector<Cube> cubes(coordinates.size());
-  std::transform(coordinates.begin(), coordinates.end(), cubes.begin(), cube_of);
+  // Points of one cube mostly follow each other: one entry for each such run.
+  struct Run {
+    Cube cube;
+    std::size_t end;
+  };
+  std::vector<Run> runs;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Cube cube = cube_of(coordinates[order[k]]);
+    if (runs.empty() || runs.back().cube != cube) runs.push_back({cube, k});
+    runs.back().end = k + 1;
+  }
+  std::vector<Cube> cubes(runs.size());
+  std::transform(runs.begin(), runs.end(), cubes.begin(), [](const Run& run) { return run.cube; });
   std::sort(cubes.begin(), cubes.end());
   cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
   const std::vector<std::uint32_t> group = groups_of(cubes);
 
   std::vector<std::uint32_t> group_of_point(coordinates.size());
   std::vector<std::size_t> size(cubes.size(), 0);
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const auto cube = std::lower_bound(cubes.begin(), cubes.end(), cube_of(coordinates[i])) - cubes.begin();
-    group_of_point[i] = group[static_cast<std::size_t>(cube)];
-    ++size[group_of_point[i]];
+  std::size_t begin = 0;
+  for (const Run& run : runs) {
+    const auto cube = std::lower_bound(cubes.begin(), cubes.end(), run.cube) - cubes.begin();
+    const std::uint32_t of_run = group[static_cast<std::size_t>(cube)];
+    for (std::size_t k = begin; k < run.end; ++k) group_of_point[order[k]] = of_run;
+    size[of_run] += run.end - begin;
+    begin = run.end;
   }
   const auto largest = static_cast<std::uint32_t>(std::max_element(size.begin(), size.end()) - size.begin());
   for (std::size_t i = 0; i < small.size(); ++i)

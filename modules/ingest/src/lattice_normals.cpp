@@ -5,7 +5,7 @@
 
 #include "drape/base/parallel.hpp"
 #include "lattice_view.hpp"
-#include "neighborhoods.hpp"
+#include "plane_fit.hpp"
 
 namespace drape::ingest {
 namespace {
@@ -21,10 +21,18 @@ std::vector<Eigen::Vector3f> lattice_normals(const RangeScan& scan, const LocalS
   const RangeGrid& grid = *scan.grid;
   const auto& points = scan.cloud.positions;
   std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
+  struct Offset {
+    int down, right;
+    double cells;  // at least 1
+  };
+  std::vector<Offset> offsets;
   const int reach = static_cast<int>(std::floor(radius_cells));
+  for (int down = -reach; down <= reach; ++down)
+    for (int right = -reach; right <= reach; ++right)
+      if (const double cells = std::hypot(down, right); cells <= radius_cells)
+        offsets.push_back({down, right, std::max(1.0, cells)});
   constexpr std::size_t rows_per_chunk = 8;
   parallel_for(static_cast<std::size_t>(grid.rows), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<Eigen::Vector3d> around;
     for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
       for (int column = 0; column < grid.columns; ++column) {
         const std::int32_t center = grid.at(row, column);
@@ -32,21 +40,20 @@ std::vector<Eigen::Vector3f> lattice_normals(const RangeScan& scan, const LocalS
         const double step = longest_step_spacings * spacing.at(points[center]);
         bool other_row = false;
         bool other_column = false;
-        around.clear();
-        for (int down = -reach; down <= reach; ++down)
-          for (int right = -reach; right <= reach; ++right) {
-            const double cells = std::hypot(down, right);
-            if (cells > radius_cells) continue;
-            const std::int32_t index = cell_or_missing(grid, row + down, column + right);
-            if (index == RangeGrid::missing ||
-                (points[index] - points[center]).norm() > step * std::max(1.0, cells))
-              continue;
-            around.push_back(points[index]);
-            other_row |= down != 0;
-            other_column |= right != 0;
-          }
-        if (around.size() >= 5 && other_row && other_column)
-          normals[static_cast<std::size_t>(center)] = plane_normal(around);
+        int count = 0;
+        PlaneFit plane;
+        for (const Offset& offset : offsets) {
+          const std::int32_t index = cell_or_missing(grid, row + offset.down, column + offset.right);
+          if (index == RangeGrid::missing) continue;
+          const Eigen::Vector3d to = points[index] - points[center];
+          if (to.squaredNorm() > step * step * offset.cells * offset.cells) continue;
+          plane.add(to);
+          ++count;
+          other_row |= offset.down != 0;
+          other_column |= offset.right != 0;
+        }
+        if (count >= 5 && other_row && other_column)
+          normals[static_cast<std::size_t>(center)] = plane.normal();
       }
   });
   return normals;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drape/base/parallel.hpp"
 #include "lattice_view.hpp"
 
 namespace drape::ingest {
@@ -50,18 +51,21 @@ std::vector<std::uint8_t> mixed_pixels(const RangeScan& scan, const ScanView& vi
       return Step::level;
     return step.along > 0 ? Step::steep_back : Step::steep_front;
   };
-  for (int row = 0; row < grid.rows; ++row)
-    for (int column = 0; column < grid.columns; ++column) {
-      const std::int32_t index = grid.at(row, column);
-      if (index == RangeGrid::missing) continue;
-      std::array<Step, 8> steps{};
-      for (std::size_t d = 0; d < directions.size(); ++d) {
-        const auto [down, right] = directions[d];
-        steps[2 * d] = step_to(index, cell_or_missing(grid, row + down, column + right));
-        steps[2 * d + 1] = step_to(index, cell_or_missing(grid, row - down, column - right));
+  constexpr std::size_t rows_per_chunk = 16;
+  parallel_for(static_cast<std::size_t>(grid.rows), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
+      for (int column = 0; column < grid.columns; ++column) {
+        const std::int32_t index = grid.at(row, column);
+        if (index == RangeGrid::missing) continue;
+        std::array<Step, 8> steps{};
+        for (std::size_t d = 0; d < directions.size(); ++d) {
+          const auto [down, right] = directions[d];
+          steps[2 * d] = step_to(index, cell_or_missing(grid, row + down, column + right));
+          steps[2 * d + 1] = step_to(index, cell_or_missing(grid, row - down, column - right));
+        }
+        mixed[static_cast<std::size_t>(index)] = hangs_between(steps) ? 1 : 0;
       }
-      mixed[static_cast<std::size_t>(index)] = hangs_between(steps) ? 1 : 0;
-    }
+  });
   return mixed;
 }
 

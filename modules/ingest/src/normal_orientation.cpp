@@ -6,8 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "drape/base/parallel.hpp"
-
 namespace drape::ingest {
 namespace {
 
@@ -64,16 +62,12 @@ constexpr std::size_t graph_neighbors = 10;
 // Edges of the neighbourhood graph in the order in which Kruskal (1956) takes them; indices in Morton order.
 std::vector<Edge> sorted_edges(const OrderedPoints& points, const std::vector<Eigen::Vector3f>& normals) {
   std::vector<Edge> edges(points.size() * graph_neighbors, Edge{2.0F, 0, 0});
-  parallel_for(points.size(), 2048, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbor> found(graph_neighbors + 1);
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t count = points.tree().nearest(points.points()[i], found);
-      std::size_t slot = i * graph_neighbors;
-      for (std::size_t n = 0; n < count && slot < (i + 1) * graph_neighbors; ++n) {
-        if (found[n].index == i) continue;
-        const float cosine = normals[points.original(i)].dot(normals[points.original(found[n].index)]);
-        edges[slot++] = {1.0F - std::abs(cosine), static_cast<std::uint32_t>(i), found[n].index};
-      }
+  points.for_each_neighborhood(graph_neighbors + 1, [&](std::size_t i, std::span<Near> near) {
+    std::size_t slot = i * graph_neighbors;
+    for (const Near& n : near) {
+      if (n.index() == i || slot == (i + 1) * graph_neighbors) continue;
+      const float cosine = normals[points.original(i)].dot(normals[points.original(n.index())]);
+      edges[slot++] = {1.0F - std::abs(cosine), static_cast<std::uint32_t>(i), n.index()};
     }
   });
   std::erase_if(edges, [](const Edge& e) { return e.cost > 1.5F; });

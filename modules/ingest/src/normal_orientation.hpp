@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drape/geometry/range_scan.hpp"
-#include "neighborhoods.hpp"
+#include "ordered_points.hpp"
 
 namespace drape::ingest {
 

@@ -5,10 +5,7 @@
 #include <array>
 #include <tuple>
 
-#include "drape/base/parallel.hpp"
 #include "drape/geometry/bounding_box.hpp"
-#include "drape/ingest/point_spacing.hpp"
-#include "neighborhoods.hpp"
 
 namespace drape::ingest {
 
@@ -28,25 +25,6 @@ std::vector<std::uint8_t> outside_of_intensities(const RangeScan& scan, double l
     outside[i] = intensity < least || intensity > most ? 1 : 0;
   }
   return outside;
-}
-
-std::vector<std::uint8_t> sparse_points(const RangeScan& scan, double spacing, double radius,
-                                        std::size_t neighbors) {
-  std::vector<std::uint8_t> sparse(scan.cloud.size(), 0);
-  if (!(radius > 0) || neighbors == 0) return sparse;
-  const OrderedPoints ordered(scan.cloud.positions);
-  const LocalSpacing local(scan, spacing);
-  parallel_for(ordered.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbor> found(neighbors + 1);  // the point itself is the nearest
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d& point = ordered.points()[i];
-      const std::size_t count = ordered.tree().nearest(point, found);
-      const double reach = radius * local.ratio(point);
-      const bool enough = count == found.size() && found.back().squared_distance <= reach * reach;
-      sparse[ordered.original(i)] = enough ? 0 : 1;
-    }
-  });
-  return sparse;
 }
 
 std::vector<std::uint8_t> all_but_best_seen(const PointCloud& cloud, double voxel) {

@@ -18,11 +18,6 @@ namespace drape::ingest {
 [[nodiscard]] std::vector<std::uint8_t> outside_of_intensities(const RangeScan& scan, double least,
                                                                double most);
 
-/// Points with fewer than `neighbors` others within `radius` (which holds where the spacing is `spacing`, and
-/// grows with it where rays diverge).
-[[nodiscard]] std::vector<std::uint8_t> sparse_points(const RangeScan& scan, double spacing, double radius,
-                                                      std::size_t neighbors);
-
 /// All but the most confident point of each voxel of edge `voxel`; of equal ones the first is kept.
 [[nodiscard]] std::vector<std::uint8_t> all_but_best_seen(const PointCloud& cloud, double voxel);
 

@@ -1,10 +1,11 @@
 #include "drape/ingest/point_spacing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lattice_view.hpp"
-#include "neighborhoods.hpp"
+#include "spacing_parts.hpp"
 
 namespace drape::ingest {
 namespace {
@@ -16,12 +17,15 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-// Median distance across the rays of points that lie `rows` and `columns` cells apart.
+// Median distance across the rays of points that lie `rows` and `columns` cells apart, by a part of the rows
+// where there are very many.
 double lattice_step(const RangeScan& scan, const ScanView& view, int rows, int columns) {
+  constexpr std::size_t enough = 200'000;
   const auto& points = scan.cloud.positions;
   const RangeGrid& grid = *scan.grid;
+  const int stride = std::max(1, static_cast<int>(points.size() / enough));
   std::vector<double> steps;
-  for (int row = 0; row + rows < grid.rows; ++row)
+  for (int row = 0; row + rows < grid.rows; row += stride)
     for (int column = 0; column + columns < grid.columns; ++column) {
       const auto from = grid.at(row, column);
       const auto to = grid.at(row + rows, column + columns);
@@ -32,35 +36,38 @@ double lattice_step(const RangeScan& scan, const ScanView& view, int rows, int c
   return median(steps);
 }
 
-// Mean distance to the nearest others, at some ten thousand places: a median needs no more.
-double neighbor_spacing(const RangeScan& scan) {
-  constexpr std::size_t nearest = 4;  // the neighbours at distance 1 on a square lattice
-  constexpr std::size_t places = 20'000;
-  const OrderedPoints ordered(scan.cloud.positions);
-  const std::size_t stride = std::max<std::size_t>(1, ordered.size() / places);
+}  // namespace
+
+std::optional<double> lattice_spacing(const RangeScan& scan) {
+  if (!scan.grid) return std::nullopt;
+  const ScanView view = view_or_lattice_axis(scan);
+  const double along_row = lattice_step(scan, view, 0, 1);
+  const double along_column = lattice_step(scan, view, 1, 0);
+  if (along_row > 0 && along_column > 0) return std::sqrt(along_row * along_column);
+  if (along_row > 0 || along_column > 0) return std::max(along_row, along_column);
+  return std::nullopt;
+}
+
+double neighbor_spacing(const OrderedPoints& points) {
+  constexpr std::size_t nearest = 4;      // the neighbours at distance 1 on a square lattice
+  constexpr std::size_t places = 20'000;  // a median needs no more
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / places);
   std::vector<double> distances;
-  std::vector<Neighbor> found(nearest + 1);
-  for (std::size_t i = 0; i < ordered.size(); i += stride) {
-    const std::size_t count = ordered.tree().nearest(ordered.points()[i], found);
+  std::array<Near, nearest + 1> found;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    const std::size_t count = points.nearest(points.points()[i], found);
     double sum = 0;
-    for (std::size_t n = 1; n < count; ++n) sum += std::sqrt(found[n].squared_distance);
+    for (std::size_t n = 1; n < count; ++n)
+      sum += std::sqrt(static_cast<double>(found[n].squared_distance()));
     if (count > 1) distances.push_back(sum / static_cast<double>(count - 1));
   }
   return median(distances);
 }
 
-}  // namespace
-
 double point_spacing(const RangeScan& scan) {
   if (scan.cloud.size() < 2) return 0;
-  if (scan.grid) {
-    const ScanView view = view_or_lattice_axis(scan);
-    const double along_row = lattice_step(scan, view, 0, 1);
-    const double along_column = lattice_step(scan, view, 1, 0);
-    if (along_row > 0 && along_column > 0) return std::sqrt(along_row * along_column);
-    if (along_row > 0 || along_column > 0) return std::max(along_row, along_column);
-  }
-  return neighbor_spacing(scan);
+  if (const auto spacing = lattice_spacing(scan)) return *spacing;
+  return neighbor_spacing(OrderedPoints(scan.cloud.positions));
 }
 
 LocalSpacing::LocalSpacing(const RangeScan& scan, double spacing) : spacing_(spacing) {

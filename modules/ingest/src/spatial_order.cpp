@@ -1,6 +1,8 @@
 #include "drape/ingest/spatial_order.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <tuple>
 
 #include "drape/geometry/bounding_box.hpp"
@@ -19,6 +21,27 @@ std::uint64_t spread(std::uint64_t x) {
   return x;
 }
 
+struct Entry {
+  std::uint64_t code;
+  std::uint32_t index;
+};
+
+// A radix sort, lowest digits first; digits that all codes share are passed over.
+void sort_by_code(std::vector<Entry>& entries) {
+  constexpr unsigned digit_bits = 11;
+  constexpr std::size_t digits = std::size_t{1} << digit_bits;
+  std::vector<Entry> sorted(entries.size());
+  for (unsigned shift = 0; shift < 63; shift += digit_bits) {
+    std::array<std::size_t, digits> place{};
+    const auto digit = [&](const Entry& e) { return e.code >> shift & (digits - 1); };
+    for (const Entry& e : entries) ++place[digit(e)];
+    if (place[digit(entries[0])] == entries.size()) continue;
+    std::exclusive_scan(place.begin(), place.end(), place.begin(), std::size_t{0});
+    for (const Entry& e : entries) sorted[place[digit(e)]++] = e;
+    entries.swap(sorted);
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> morton_order(std::span<const Eigen::Vector3d> points) {
@@ -26,10 +49,6 @@ std::vector<std::uint32_t> morton_order(std::span<const Eigen::Vector3d> points)
   const BoundingBox box = bounding_box(points);
   const double longest = box.sizes().maxCoeff();
   const double cells_per_length = longest > 0 ? 0x1fffff / longest : 0.0;
-  struct Entry {
-    std::uint64_t code;
-    std::uint32_t index;
-  };
   std::vector<Entry> entries(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d cell = (points[i] - box.min()) * cells_per_length;
@@ -38,12 +57,19 @@ std::vector<std::uint32_t> morton_order(std::span<const Eigen::Vector3d> points)
                       spread(static_cast<std::uint64_t>(cell.z())) << 2,
                   i};
   }
-  std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
-    if (a.code != b.code) return a.code < b.code;
-    const Eigen::Vector3d& p = points[a.index];
-    const Eigen::Vector3d& q = points[b.index];
-    return std::tuple(p.x(), p.y(), p.z(), a.index) < std::tuple(q.x(), q.y(), q.z(), b.index);
-  });
+  sort_by_code(entries);
+  // Points of one code, few if any, by their coordinates.
+  for (auto first = entries.begin(); first != entries.end();) {
+    const auto last =
+        std::find_if(first + 1, entries.end(), [&](const Entry& e) { return e.code != first->code; });
+    if (last - first > 1)
+      std::sort(first, last, [&](const Entry& a, const Entry& b) {
+        const Eigen::Vector3d& p = points[a.index];
+        const Eigen::Vector3d& q = points[b.index];
+        return std::tuple(p.x(), p.y(), p.z(), a.index) < std::tuple(q.x(), q.y(), q.z(), b.index);
+      });
+    first = last;
+  }
   std::vector<std::uint32_t> order(points.size());
   std::transform(entries.begin(), entries.end(), order.begin(), [](const Entry& e) { return e.index; });
   return order;

@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "drape/geometry/bounding_box.hpp"
-#include "drape/ingest/estimate_normals.hpp"
 
 namespace drape::registration {
 namespace {
@@ -53,8 +52,9 @@ void append(PointCloud& cloud, const Sum& sum, const PointCloud& like) {
 
 }  // namespace
 
-PointCloud merged_cloud(std::span<const RangeScan> scans, std::span<const Rigid3> world_from_scan,
-                        std::span<const std::uint8_t> use) {
+PointCloud merged_cloud(std::span<const RangeScan> scans,
+                        std::span<const std::span<const Eigen::Vector3f>> normals,
+                        std::span<const Rigid3> world_from_scan, std::span<const std::uint8_t> use) {
   const auto all_have = [&](const auto& attribute) {
     for (std::size_t i = 0; i < scans.size(); ++i)
       if (use[i] != 0 && attribute(scans[i].cloud).size() != scans[i].cloud.size()) return false;
@@ -68,9 +68,7 @@ PointCloud merged_cloud(std::span<const RangeScan> scans, std::span<const Rigid3
     if (use[i] == 0 || cloud.empty()) continue;
     const Eigen::Matrix3f rotation = world_from_scan[i].linear().cast<float>();
     for (const auto& p : cloud.positions) merged.positions.push_back(world_from_scan[i] * p);
-    const bool has_normals = cloud.normals.size() == cloud.size();
-    for (const auto& n : has_normals ? cloud.normals : ingest::estimate_normals(scans[i]))
-      merged.normals.emplace_back((rotation * n).normalized());
+    for (const Eigen::Vector3f& n : normals[i]) merged.normals.emplace_back((rotation * n).normalized());
     if (cloud.confidences.size() == cloud.size())
       merged.confidences.insert(merged.confidences.end(), cloud.confidences.begin(), cloud.confidences.end());
     else

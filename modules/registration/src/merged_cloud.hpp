@@ -10,10 +10,11 @@
 
 namespace drape::registration {
 
-/// Points of the scans that `use` does not mask with 0, in the world, one scan after the other. Normals are
-/// estimated where a scan has none, confidences are then 1. Colours and intensities are kept if every scan
-/// with points has them.
+/// Points of the scans that `use` does not mask with 0, in the world, one scan after the other, with these
+/// normals (of each scan's points, in its frame). Where a scan has no confidences they are 1. Colours and
+/// intensities are kept if every scan with points has them.
 [[nodiscard]] PointCloud merged_cloud(std::span<const RangeScan> scans,
+                                      std::span<const std::span<const Eigen::Vector3f>> normals,
                                       std::span<const Rigid3> world_from_scan,
                                       std::span<const std::uint8_t> use);
 

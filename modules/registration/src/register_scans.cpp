@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "drape/base/parallel.hpp"
+#include "drape/ingest/estimate_normals.hpp"
 #include "global_placement.hpp"
 #include "joint_refinement.hpp"
 #include "merged_cloud.hpp"
@@ -18,10 +19,25 @@ namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
-std::vector<ScanSurface> surfaces_of(std::span<const RangeScan> scans) {
+// Of each scan's points: its own, else estimated ones.
+struct ScanNormals {
+  explicit ScanNormals(std::span<const RangeScan> scans) : estimated(scans.size()) {
+    parallel_for(scans.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (scans[i].cloud.normals.size() != scans[i].cloud.size())
+          estimated[i] = ingest::estimate_normals(scans[i]);
+    });
+    for (std::size_t i = 0; i < scans.size(); ++i)
+      of.emplace_back(estimated[i].empty() ? scans[i].cloud.normals : estimated[i]);
+  }
+  std::vector<std::vector<Eigen::Vector3f>> estimated;
+  std::vector<std::span<const Eigen::Vector3f>> of;
+};
+
+std::vector<ScanSurface> surfaces_of(std::span<const RangeScan> scans, const ScanNormals& normals) {
   std::vector<std::optional<ScanSurface>> built(scans.size());
   parallel_for(scans.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) built[i].emplace(scans[i]);
+    for (std::size_t i = begin; i < end; ++i) built[i].emplace(scans[i], normals.of[i]);
   });
   std::vector<ScanSurface> surfaces;
   for (auto& surface : built) surfaces.push_back(std::move(*surface));
@@ -142,7 +158,8 @@ Registration register_scans(std::span<const RangeScan> scans,
   assert(scans.size() == given_world_from_scan.size());
   Registration result;
   progress.update(0, "preparing the scans");
-  const std::vector<ScanSurface> surfaces = surfaces_of(scans);
+  const ScanNormals normals(scans);
+  const std::vector<ScanSurface> surfaces = surfaces_of(scans, normals);
   const double reach = fine_reach(surfaces);
   result.scans = place_given(scans, given_world_from_scan);
   if (options.method == Method::global)
@@ -171,7 +188,7 @@ Registration register_scans(std::span<const RangeScan> scans,
   for (std::size_t i = 0; i < scans.size(); ++i)
     result.scans[i].moved_m = mean_move(surfaces[i], at_start[i], result.scans[i].world_from_scan);
   progress.update(0.9, "merging the scans");
-  result.merged = thinned(merged_cloud(scans, poses_of(result.scans), use),
+  result.merged = thinned(merged_cloud(scans, normals.of, poses_of(result.scans), use),
                           options.thin_spacings * median_spacing(surfaces));
   progress.update(1);
   return result;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drape/ingest/estimate_normals.hpp"
 #include "drape/ingest/point_spacing.hpp"
 #include "drape/ingest/spatial_order.hpp"
 
@@ -47,7 +46,7 @@ double plane_noise(const ScanSurface& surface, const KdTree& tree, const ingest:
 
 }  // namespace
 
-ScanSurface::ScanSurface(const RangeScan& scan)
+ScanSurface::ScanSurface(const RangeScan& scan, std::span<const Eigen::Vector3f> normals)
     : view_(scan.view),
       box_(bounding_box(scan.cloud.positions)),
       scan_spacing_(scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan)),
@@ -55,11 +54,6 @@ ScanSurface::ScanSurface(const RangeScan& scan)
       spacing_(scan_spacing_ * std::sqrt(static_cast<double>(stride_))),
       local_spacing_(scan, spacing_) {
   const PointCloud& cloud = scan.cloud;
-  const bool has_normals = cloud.normals.size() == cloud.size();
-  const std::vector<Eigen::Vector3f> estimated =
-      has_normals ? std::vector<Eigen::Vector3f>() : ingest::estimate_normals(scan);
-  const std::vector<Eigen::Vector3f>& normals = has_normals ? cloud.normals : estimated;
-
   const std::vector<std::uint32_t> order = ingest::morton_order(cloud.positions);
   for (std::size_t k = 0; k < order.size(); k += stride_) {
     const std::uint32_t i = order[k];
@@ -68,6 +62,7 @@ ScanSurface::ScanSurface(const RangeScan& scan)
     confidences_.push_back(cloud.confidences.empty() ? 1.0 : static_cast<double>(cloud.confidences[i]));
   }
   tree_.emplace(points_);
+  pixels_.emplace(view_, points_, spacing_);
   is_surface_ = spacing_ > 0 && span_a_surface(points_);
   noise_ = plane_noise(*this, *tree_, local_spacing_);
 }
@@ -85,7 +80,13 @@ std::optional<SurfaceMatch> ScanSurface::match(const Eigen::Vector3d& point, con
   const double scale = local_spacing_.ratio(point);
   const double local_reach = reach * scale;
   if (box_.squaredExteriorDistance(point) >= local_reach * local_reach) return std::nullopt;
-  const auto nearest = tree_->nearest_within(point, local_reach);
+  std::optional<Neighbor> nearest;
+  // Less than a spacing away a point in sight is as good as the nearest, and much faster found.
+  if (const auto seen = pixels_->nearest(point);
+      seen && seen->squared_distance < std::pow(std::min(spacing_ * scale, local_reach), 2))
+    nearest = Neighbor{seen->index, seen->squared_distance};
+  else
+    nearest = tree_->nearest_within(point, local_reach);
   if (!nearest) return std::nullopt;
   const std::uint32_t i = nearest->index;
   if (normals_[i].dot(normal) < least_normal_cosine) return std::nullopt;

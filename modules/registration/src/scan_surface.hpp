@@ -12,6 +12,7 @@
 #include "drape/geometry/kd_tree.hpp"
 #include "drape/geometry/range_scan.hpp"
 #include "drape/ingest/point_spacing.hpp"
+#include "pixel_index.hpp"
 
 namespace drape::registration {
 
@@ -27,7 +28,8 @@ struct SurfaceMatch {
 /// Oriented points of one scan, in its own frame, evenly thinned where there are very many.
 class ScanSurface {
  public:
-  explicit ScanSurface(const RangeScan& scan);
+  /// With the normals of the scan's points.
+  ScanSurface(const RangeScan& scan, std::span<const Eigen::Vector3f> normals);
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }
@@ -50,9 +52,9 @@ class ScanSurface {
   [[nodiscard]] std::vector<std::uint32_t> sample(std::size_t count) const;
 
   /// The place on this surface that `point` (in this scan's frame, with `normal`) lies on or near: the
-  /// nearest point, if it is within `reach` (which holds where the spacing is the median one, and grows with
-  /// it), its normal is within 45 degrees, and `point` does not lie beside the surface's border (Turk and
-  /// Levoy 1994).
+  /// nearest point (or one that is hardly further), if it is within `reach` (which holds where the spacing is
+  /// the median one, and grows with it), its normal is within 45 degrees, and `point` does not lie beside the
+  /// surface's border (Turk and Levoy 1994).
   [[nodiscard]] std::optional<SurfaceMatch> match(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                                                   double reach) const;
 
@@ -67,6 +69,7 @@ class ScanSurface {
   std::vector<Eigen::Vector3d> normals_;
   std::vector<double> confidences_;
   std::optional<KdTree> tree_;
+  std::optional<PixelIndex> pixels_;
   double noise_ = 0;
   bool is_surface_ = false;
 };

@@ -15,11 +15,9 @@ constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-SightMap::SightMap(const ScanSurface& viewer) : view_(viewer.view()) {
+SightMap::SightMap(const ScanSurface& viewer) : view_(viewer.view()), projection_(viewer.view()) {
   if (view_.kind == ScanView::Kind::unknown || viewer.size() == 0 || !(viewer.spacing() > 0)) return;
   if (view_.kind == ScanView::Kind::direction) {
-    right_ = view_.vector.unitOrthogonal();
-    down_ = view_.vector.cross(right_);
     pixel_ = pixel_spacings * viewer.spacing();
   } else {
     std::vector<double> ranges;
@@ -98,20 +96,10 @@ double SightMap::in_void_share(std::span<const Eigen::Vector3d> points,
   return judged >= least_judged ? static_cast<double>(in_void) / static_cast<double>(judged) : 0.0;
 }
 
-// In the viewer's image plane: across the rays of a parallel view; on the octahedral map of directions
-// (Cigolle et al. 2014) round an origin, which covers all of them without a pole.
-std::optional<SightMap::Sighting> SightMap::sighting_of(const Eigen::Vector3d& point) const {
-  if (view_.kind == ScanView::Kind::direction)
-    return Sighting{Eigen::Vector2d(right_.dot(point), down_.dot(point)) / pixel_, view_.vector.dot(point)};
-  const Eigen::Vector3d ray = point - view_.vector;
-  const double range = ray.norm();
-  if (!(range > 0)) return std::nullopt;
-  const Eigen::Vector3d d = ray / ray.cwiseAbs().sum();
-  Eigen::Vector2d place = d.head<2>();
-  if (d.z() < 0)
-    place = Eigen::Vector2d((1 - std::abs(d.y())) * (d.x() < 0 ? -1 : 1),
-                            (1 - std::abs(d.x())) * (d.y() < 0 ? -1 : 1));
-  return Sighting{place / pixel_, range};
+std::optional<Sighting> SightMap::sighting_of(const Eigen::Vector3d& point) const {
+  std::optional<Sighting> sighting = projection_.of(point);
+  if (sighting) sighting->place /= pixel_;
+  return sighting;
 }
 
 std::ptrdiff_t SightMap::pixel_at(const Eigen::Vector2d& place) const {

@@ -8,6 +8,7 @@
 
 #include "drape/geometry/rigid3.hpp"
 #include "scan_surface.hpp"
+#include "view_projection.hpp"
 
 namespace drape::registration {
 
@@ -32,10 +33,7 @@ class SightMap {
                                      const Rigid3& viewer_from_points) const;
 
  private:
-  struct Sighting {
-    Eigen::Vector2d place;  // in pixels
-    double depth;
-  };
+  /// Its place in pixels.
   [[nodiscard]] std::optional<Sighting> sighting_of(const Eigen::Vector3d& point) const;
   /// The index of the pixel at `place`; -1 outside of the map.
   [[nodiscard]] std::ptrdiff_t pixel_at(const Eigen::Vector2d& place) const;
@@ -43,8 +41,7 @@ class SightMap {
   void find_void(const std::vector<float>& nearest);
 
   ScanView view_;
-  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d down_ = Eigen::Vector3d::Zero();
+  ViewProjection projection_;
   double pixel_ = 1;
   double median_range_ = 0;  // 0: parallel rays
   Eigen::Array2d corner_ = Eigen::Array2d::Zero();

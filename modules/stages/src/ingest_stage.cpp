@@ -193,7 +193,7 @@ void run(const ingest::CleanOptions& options, pipeline::StageRun& run) {
 pipeline::Stage ingest_stage() {
   pipeline::Stage stage;
   stage.name = "ingest";
-  stage.version = 3;
+  stage.version = 4;
   stage.summary = "Reads the scans, drops bad points, and finds oriented normals.";
   stage.input_parts = {"scans", "units"};
   stage.writes = {"scans.json", "scans/*.ply", "photos/*.png", "photos/cameras.json"};

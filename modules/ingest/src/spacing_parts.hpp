@@ -1,0 +1,17 @@
+// The two ways to measure how far apart samples lie; see point_spacing.
+#pragma once
+
+#include <optional>
+
+#include "drape/geometry/range_scan.hpp"
+#include "ordered_points.hpp"
+
+namespace drape::ingest {
+
+/// By the neighbours on the grid; nothing without one, or where it has no neighbours.
+[[nodiscard]] std::optional<double> lattice_spacing(const RangeScan& scan);
+
+/// By the nearest points in space, at some ten thousand places.
+[[nodiscard]] double neighbor_spacing(const OrderedPoints& points);
+
+}  // namespace drape::ingest
