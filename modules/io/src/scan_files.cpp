@@ -83,6 +83,10 @@ const ScanFormat& format_of(const std::filesystem::path& file, std::string_view 
   for (const ScanFormat& format : formats)
     if (format.recognises(bytes)) return format;
   const std::string ending = extension(file);
+  if (ending == "exr")
+    throw input_error(
+        "{}: OpenEXR pictures are not read; convert it to a float TIFF (oiiotool IN.exr -o OUT.tif)",
+        file.string());
   std::string known;
   for (const ScanFormat& format : formats) {
     if (has_extension(format.facts, ending)) return format;
