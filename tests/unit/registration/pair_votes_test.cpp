@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "drape/ingest/estimate_normals.hpp"
 #include "scan_surface.hpp"
 #include "shapes.hpp"
 
@@ -11,7 +12,8 @@ namespace drape::registration {
 namespace {
 
 CoarseScan coarse(const RangeScan& scan, double voxel) {
-  return CoarseScan(ScanSurface(scan), voxel);
+  const std::vector<Eigen::Vector3f> normals = ingest::estimate_normals(scan);
+  return CoarseScan(ScanSurface(scan, normals), voxel);
 }
 
 // How far the first of the guesses puts the middle of the scan off, and how much it turns it off.
