@@ -20,6 +20,8 @@ constexpr float rounding = 1e-5F;  // of squared distances
 constexpr float reach_margin = 1.12F;
 constexpr float further = 1.5F;
 constexpr int walks = 3;
+// So is one that lies much denser than the points before it: distances are floats relative to the reach.
+constexpr std::size_t crowd = 8;
 // Floats relative to the origin of a bucket this much wider than the distance of interest are too coarse for
 // it.
 constexpr float widest = 16;
@@ -256,7 +258,11 @@ struct OrderedPoints::Sweep {
     visit(i, nearest);
   }
 
-  /// Those of the points in [first, last) that have enough others within `reach_here`; the rest is left.
+  void look_up(std::size_t i) {
+    finish(i, std::span(looked_up).first(points.nearest(points.points_[i], looked_up)));
+  }
+
+  /// Finishes those of the points that have enough others within `reach_here`.
   void walk(const Box& box, float reach_here) {
     candidates.origin = points.points_[left.front()];
     candidates.blocks.clear();
@@ -265,6 +271,10 @@ struct OrderedPoints::Sweep {
     std::erase_if(left, [&](std::uint32_t i) {
       candidates.find_around(points.points_[i], reach_here * reach_here);
       if (candidates.near.size() < count) return false;
+      if (candidates.near.size() > crowd * count) {
+        look_up(i);
+        return true;
+      }
       const auto last = candidates.near.begin() + static_cast<std::ptrdiff_t>(count) - 1;
       std::nth_element(candidates.near.begin(), last, candidates.near.end());
       finish(i, std::span(candidates.near).first(count));
@@ -276,8 +286,7 @@ struct OrderedPoints::Sweep {
     float reach_here = reach;
     for (int k = 0; k < walks && reach > 0 && !left.empty(); ++k, reach_here *= further)
       walk(box, reach_here);
-    for (const std::uint32_t i : left)
-      finish(i, std::span(looked_up).first(points.nearest(points.points_[i], looked_up)));
+    for (const std::uint32_t i : left) look_up(i);
     left.clear();
   }
 
