@@ -18,6 +18,13 @@ double median_range(const ScanView& view, std::span<const Eigen::Vector3d> point
   return *middle;
 }
 
+// The middle of what was seen, so that it is not torn apart in the image.
+Eigen::Vector3d mean_ray(const ScanView& view, std::span<const Eigen::Vector3d> points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& p : points) sum -= view.towards_scanner(p);
+  return sum.norm() > 0 ? sum.normalized() : Eigen::Vector3d::UnitZ();
+}
+
 }  // namespace
 
 PixelIndex::PixelIndex(const ScanView& view, std::span<const Eigen::Vector3d> points, double spacing)
@@ -26,7 +33,7 @@ PixelIndex::PixelIndex(const ScanView& view, std::span<const Eigen::Vector3d> po
   const double pixel =
       view.kind == ScanView::Kind::direction ? spacing : spacing / median_range(view, points);
   if (!(pixel > 0)) return;
-  const ViewProjection projection(view);
+  const ViewProjection projection(view, mean_ray(view, points));
   Eigen::AlignedBox2d seen;
   for (const auto& p : points)
     if (const auto sighting = projection.of(p)) seen.extend(sighting->place);

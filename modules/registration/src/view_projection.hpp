@@ -20,18 +20,26 @@ struct Sighting {
 /// radians.
 class ViewProjection {
  public:
-  /// The view must be known.
-  explicit ViewProjection(const ScanView& view) : view_(view) {
-    if (view.kind != ScanView::Kind::direction) return;
-    right_ = view.vector.unitOrthogonal();
-    down_ = view.vector.cross(right_);
+  /// The view must be known. Rays along `axis` from an origin fall on the middle of the map; those away from
+  /// it on its corners.
+  explicit ViewProjection(const ScanView& view, const Eigen::Vector3d& axis = Eigen::Vector3d::UnitZ())
+      : view_(view) {
+    if (view.kind == ScanView::Kind::direction) {
+      axes_.row(0) = view.vector.unitOrthogonal();
+      axes_.row(1) = view.vector.cross(axes_.row(0).transpose());
+      axes_.row(2) = view.vector;
+    } else {
+      axes_ = Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    }
   }
 
   /// Nothing for the origin itself.
   [[nodiscard]] std::optional<Sighting> of(const Eigen::Vector3d& point) const {
-    if (view_.kind == ScanView::Kind::direction)
-      return Sighting{Eigen::Vector2d(right_.dot(point), down_.dot(point)), view_.vector.dot(point)};
-    const Eigen::Vector3d ray = point - view_.vector;
+    if (view_.kind == ScanView::Kind::direction) {
+      const Eigen::Vector3d seen = axes_ * point;
+      return Sighting{seen.head<2>(), seen.z()};
+    }
+    const Eigen::Vector3d ray = axes_ * (point - view_.vector);
     const double range = ray.norm();
     if (!(range > 0)) return std::nullopt;
     const Eigen::Vector3d d = ray / ray.cwiseAbs().sum();
@@ -44,8 +52,7 @@ class ViewProjection {
 
  private:
   ScanView view_;
-  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d down_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes_;
 };
 
 }  // namespace drape::registration
