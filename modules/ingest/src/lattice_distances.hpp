@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "drape/geometry/range_scan.hpp"
-#include "ordered_points.hpp"
 #include "drape/ingest/point_spacing.hpp"
+#include "ordered_points.hpp"
 
 namespace drape::ingest {
 
