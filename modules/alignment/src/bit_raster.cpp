@@ -96,7 +96,10 @@ BitImage enclosed_gaps(const BitImage& mesh) {
     bool changed = false;
     const auto flood_word = [&](std::size_t i, std::uint64_t seed) {
       const std::uint64_t open = open_word(y, i);
-      const std::uint64_t filled = flooded((row[i] | seed) & open, open);
+      const std::uint64_t wet = (row[i] | seed) & open;
+      // Most words are all outside or not at all.
+      if (wet == row[i] && (wet == 0 || wet == open)) return;
+      const std::uint64_t filled = wet == open ? open : flooded(wet, open);
       changed |= filled != row[i];
       row[i] = filled;
     };
