@@ -11,7 +11,8 @@ namespace {
 constexpr double least_base_length_spacings = 30;
 constexpr double steep = 0.7;  // sine of 45 degrees
 
-// Mean sine of the angle at which the faces on the loop run into its plane, by edge length.
+// Mean sine of the angle between the loop's plane and the faces on the loop, by edge length. By the faces'
+// normals, not by the way across each edge: a border that runs in steps is as steep as a straight one.
 double mean_steepness(const TriangleMesh& mesh, const VertexFaces& around,
                       const std::vector<std::uint32_t>& loop, const Eigen::Vector3d& normal) {
   double sum = 0;
@@ -19,18 +20,15 @@ double mean_steepness(const TriangleMesh& mesh, const VertexFaces& around,
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::uint32_t a = loop[i];
     const std::uint32_t b = loop[(i + 1) % loop.size()];
+    const double length = (mesh.vertices[b] - mesh.vertices[a]).norm();
     for (const std::uint32_t face : around.of(a)) {
       const Face& f = mesh.faces[face];
-      const auto inner = std::find_if(f.begin(), f.end(), [&](std::uint32_t v) { return v != a && v != b; });
-      if (std::find(f.begin(), f.end(), b) == f.end() || inner == f.end()) continue;
-      const Eigen::Vector3d along = mesh.vertices[b] - mesh.vertices[a];
-      const double length = along.norm();
-      if (!(length > 0)) continue;
-      const Eigen::Vector3d into = mesh.vertices[a] - mesh.vertices[*inner];
-      const Eigen::Vector3d across = into - along * (into.dot(along) / (length * length));
-      if (!(across.norm() > 0)) continue;
-      sum += length * std::abs(across.normalized().dot(normal));
-      weight += length;
+      if (std::find(f.begin(), f.end(), b) == f.end()) continue;
+      const Eigen::Vector3d face_normal = scaled_face_normal(mesh, face);
+      if (const double size = face_normal.stableNorm(); size > 0) {
+        sum += length * (face_normal / size).cross(normal).norm();
+        weight += length;
+      }
     }
   }
   return weight > 0 ? sum / weight : 0;

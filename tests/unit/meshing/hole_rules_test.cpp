@@ -61,6 +61,37 @@ TEST(HoleRules, ABaseGetsAPlane) {
   EXPECT_EQ(left.mesh.faces, egg.faces);
 }
 
+// A tube of unit cells, closed above; of the lowest row every other cell is missing.
+TriangleMesh tube_with_battlements(std::uint32_t around = 60, std::uint32_t rows = 40) {
+  TriangleMesh tube;
+  const double radius = around / (2 * pi);
+  for (std::uint32_t row = 0; row <= rows; ++row)
+    for (std::uint32_t i = 0; i < around; ++i)
+      tube.vertices.emplace_back(radius * std::cos(2 * pi * i / around),
+                                 radius * std::sin(2 * pi * i / around), row);
+  const auto apex = static_cast<std::uint32_t>(tube.vertices.size());
+  tube.vertices.emplace_back(0, 0, rows);
+  for (std::uint32_t row = 0; row < rows; ++row)
+    for (std::uint32_t i = row == 0 ? 1 : 0; i < around; i += row == 0 ? 2 : 1) {
+      const std::uint32_t a = row * around + i;
+      const std::uint32_t b = row * around + (i + 1) % around;
+      tube.faces.push_back({a, b, b + around});
+      tube.faces.push_back({a, b + around, a + around});
+    }
+  for (std::uint32_t i = 0; i < around; ++i)
+    tube.faces.push_back({rows * around + i, rows * around + (i + 1) % around, apex});
+  return tube;
+}
+
+TEST(HoleRules, ABaseWithAJaggedRimIsABase) {
+  const TriangleMesh tube = tube_with_battlements();
+  const FillResult result = fill(tube);
+  ASSERT_EQ(result.holes.size(), 1U);
+  EXPECT_EQ(result.holes[0].why.rfind("a base; ", 0), 0U) << result.holes[0].why;
+  EXPECT_EQ(result.mesh.vertices.size(), tube.vertices.size());  // nothing bulges out below
+  EXPECT_TRUE(mesh_quality(result.mesh).closed());
+}
+
 TEST(HoleRules, AShallowHoleIsNoBase) {
   const TriangleMesh open =
       test::with_hole(test::sphere(10, 40), [](const Eigen::Vector3d& p) { return p.z() > 8.5; });
