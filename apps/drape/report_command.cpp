@@ -72,7 +72,9 @@ void report_command(const ReportArguments& arguments) {
                                           ? pipeline::parse_yaml(read_file(what), what.string())
                                           : pipeline::ConfigNode();
     if (root.kind == pipeline::ConfigNode::Kind::map && root.find("sweep") != nullptr) {
-      const pipeline::Sweep sweep = pipeline::read_sweep(what, {});
+      pipeline::Sweep sweep = pipeline::read_sweep(what, {});
+      // The digests of its points tell whether their results are of the present configuration.
+      pipeline::plan_batch(sweep.batch, stages::stage_table(), false);
       page = stages::write_sweep_report(sweep, pipeline::sweep_table(sweep));
     } else if (root.kind == pipeline::ConfigNode::Kind::map && root.find("objects") != nullptr) {
       page = report_of_batch(pipeline::read_plan(pipeline::read_manifest(what).folder()));

@@ -207,7 +207,14 @@ TEST_F(OptionChange, InputKeysRunTheStagesThatReadThem) {
       {"input.photos=[{image: p.jpg, background: q.jpg}]", "photo_regions"},
       {"input.photos=[{image: p.jpg, box_px: [1, 2, 3, 4]}]", "photo_regions"},
       {"input.photos=[{image: p.jpg, click_px: [1, 2]}]", "photo_regions"},
-      {"input.photos=[{image: p.jpg, camera: {focal_px: 9}}]", "photo_cameras"}};
+      {"input.photos=[{image: p.jpg, strokes: [{is: object, points_px: [1, 2]}]}]", "photo_regions"},
+      {"input.photos=[{image: p.jpg, segments: [1]}]", "photo_regions"},
+      {"input.photos=[{image: p.jpg, camera: {focal_px: 9}}]", "photo_cameras"},
+      {"input.photos=[{image: p.jpg, camera: {initial: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]}}]",
+       "photo_cameras"},
+      {"input.photos=[{image: p.jpg, camera: {points: [1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 1, 2, 3, "
+       "4, 6]}}]",
+       "photo_cameras"}};
   for (const auto& [set, part] : parts) {
     std::set<std::string> expected;
     for (const Stage& stage : table)

@@ -22,14 +22,16 @@ input[type=search] { font: inherit; font-size: .9rem; padding: .35rem .8rem; bor
 #objects { margin-top: 1rem; }
 #objects td, #objects tbody th { vertical-align: middle; }
 #objects .message { color: var(--soft); overflow-wrap: anywhere; min-width: 14rem; }
-#objects img { display: block; width: 7rem; border-radius: 6px; }
+#objects img { display: block; width: 7rem; height: auto; border-radius: 6px; }
 #objects .mended th::after { content: " \270E fix"; color: var(--accent); font-weight: 650; font-size: .85rem; }
+#fixes { margin-top: .9rem; }
+#fixes .meta { margin: .9rem 0 .5rem; }
 .sort { border: 0; background: none; padding: 0; font-weight: 600; color: var(--soft); font-size: .83rem; }
 [aria-sort=ascending] .sort::after { content: " \25B2"; }
 [aria-sort=descending] .sort::after { content: " \25BC"; }
 @media (max-width: 36rem) {
   #objects thead { display: none; }
-  #objects tr { display: grid; grid-template-columns: auto minmax(0, 1fr); gap: .2rem .8rem; padding: .8rem 0; border-bottom: 1px solid var(--line); }
+  #objects tr { display: grid; grid-template-columns: 9.5rem minmax(0, 1fr); gap: .2rem .8rem; padding: .8rem 0; border-bottom: 1px solid var(--line); }
   #objects tr[hidden] { display: none; }
   #objects td, #objects th { border: 0; padding: 0; text-align: left; }
   #objects .message, #objects .shown { grid-column: 1 / -1; min-width: 0; }

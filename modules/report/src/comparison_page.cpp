@@ -17,7 +17,7 @@ constexpr std::string_view comparison_style = R"css(
 .compare .figure { text-align: right; white-space: nowrap; }
 .compare tbody tr:hover { background: var(--accent-soft); }
 details { margin-top: 1rem; }
-@media (max-width: 36rem) { .compare th, .compare td { padding-right: .8rem; max-width: 9.5rem; overflow-wrap: anywhere; } }
+@media (max-width: 36rem) { .compare th, .compare td { padding-right: .8rem; min-width: 4.5rem; max-width: 12rem; } .compare td:first-child { min-width: 8rem; overflow-wrap: anywhere; } }
 .plots { display: grid; grid-template-columns: repeat(auto-fill, minmax(19rem, 1fr)); gap: 1.2rem; margin-top: 1rem; }
 .plots svg { width: 100%; height: auto; }
 .pairs { display: grid; gap: 1rem; margin-top: 1rem; }
@@ -33,7 +33,7 @@ bool is_figure(const std::string& cell) {
 // Columns of figures, which stand at the right.
 std::vector<bool> figure_columns(const std::vector<std::vector<std::string>>& rows, std::size_t count) {
   std::vector<bool> figures(count, false);
-  for (std::size_t c = 0; c < count; ++c) {
+  for (std::size_t c = 1; c < count; ++c) {  // the first names the row
     std::size_t words = 0;
     std::size_t numbers = 0;
     for (const std::vector<std::string>& row : rows) ++(is_figure(row[c]) ? numbers : words);

@@ -191,7 +191,10 @@ fs::path write_sweep_report(const pipeline::Sweep& sweep, const pipeline::SweepT
       sheet.pictures.push_back(std::move(picture));
     }
   }
-  page.sections = {numbers, plots, sheet, same};
+  page.sections = {numbers};
+  if (!plots.plots.empty()) page.sections.push_back(plots);
+  if (!sheet.pictures.empty()) page.sections.push_back(sheet);
+  page.sections.push_back(same);
   const fs::path file = sweep.batch.folder() / "report.html";
   write_file(file, report::render_comparison(page));
   return file;
