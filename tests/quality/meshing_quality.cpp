@@ -137,8 +137,7 @@ PointCloud spread_points(const TriangleMesh& mesh, std::size_t count, std::uint6
   return cloud;
 }
 
-double mean_normal_difference_deg(const TriangleMesh& made, const TriangleMesh& truth) {
-  const PointCloud places = spread_points(made, 20000, 3);
+double mean_normal_difference_deg(const PointCloud& places, const TriangleMesh& truth) {
   const PointCloud true_places = spread_points(truth, 400000, 4);
   const KdTree tree(true_places.positions);
   double sum = 0;
@@ -180,11 +179,25 @@ void print_row(const std::string& name, const TriangleMesh& made, const Triangle
       "{:>5} {:>8} {:>8}"
       " {}\n",
       name, extra.mean / s, extra.rms / s, extra.percentile_95 / s, extra.max / s, missing.mean / s,
-      missing.rms / s, mean_normal_difference_deg(made, truth), invented_percent(made, all),
-      quality.components, quality.boundary_loops, quality.genus ? std::to_string(*quality.genus) : "-",
-      quality.manifold() ? "yes" : "NO", quality.faces,
+      missing.rms / s, mean_normal_difference_deg(spread_points(made, 20000, 3), truth),
+      invented_percent(made, all), quality.components, quality.boundary_loops,
+      quality.genus ? std::to_string(*quality.genus) : "-", quality.manifold() ? "yes" : "NO", quality.faces,
       quality.self_intersections > 0 ? fmt::format("{} self-intersections", quality.self_intersections) : "");
   std::fflush(stdout);
+}
+
+// How near the samples are to the truth once they are denoised: what is lost before fusing.
+void print_samples_row(const PointCloud& cloud, const TriangleMesh& truth, const Scans& all) {
+  PointCloud some;
+  const std::size_t stride = std::max<std::size_t>(1, cloud.size() / 20000);
+  for (std::size_t i = 0; i < cloud.size(); i += stride) {
+    some.positions.push_back(cloud.positions[i]);
+    some.normals.push_back(cloud.normals[i]);
+  }
+  const metrics::Distribution off = metrics::surface_distance(some.positions, truth);
+  fmt::print("{:<34} {:>6.3f} {:>6.3f} {:>6.3f} {:>6.2f} | {:>13} | {:>6.2f}\n", "  denoised samples",
+             off.mean / all.spacing, off.rms / all.spacing, off.percentile_95 / all.spacing,
+             off.max / all.spacing, "", mean_normal_difference_deg(some, truth));
 }
 
 void save(const Settings& settings, const std::string& name, const TriangleMesh& mesh) {
@@ -214,8 +227,9 @@ void measure_shape(const Settings& settings, const std::string& file) {
         meshing::mesh_scans({all.scans, all.world_from_scan, all.cloud, all.spacing}, settings.mesh).mesh;
     print_row(row, made, truth, seen, all);
     save(settings, fmt::format("{}_{}", name, noise), made);
-    if (!settings.pcl) continue;
     const PointCloud cloud = denoised_cloud(all);
+    print_samples_row(cloud, truth, all);
+    if (!settings.pcl) continue;
     for (const int depth : {8, 9})
       if (const auto peer = test::pcl_poisson_mesh(cloud, depth))
         print_row(fmt::format("  pcl Poisson {}, trimmed", depth),

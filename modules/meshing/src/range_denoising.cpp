@@ -1,11 +1,10 @@
 #include "range_denoising.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "drape/base/parallel.hpp"
+#include "surface_averaging.hpp"
 
 namespace drape::meshing {
 namespace {
@@ -85,6 +84,7 @@ Surroundings surroundings_of(const std::vector<RangeSample>& samples, std::span<
   Surroundings s;
   for (const std::uint32_t i : around) {
     const RangeSample& n = samples[i];
+    if (!seen(n)) continue;
     const float dx = (n.column - c.column) * per_pixel;
     const float dy = (n.row - c.row) * per_pixel;
     const float dz = (n.depth - c.depth) * per_length;
@@ -98,20 +98,16 @@ Surroundings surroundings_of(const std::vector<RangeSample>& samples, std::span<
 // their neighbours: a few thousand tell.
 float noise_of(const std::vector<RangeSample>& samples, const SampleNeighbors& neighbors, const Sight& sight,
                float longest_edge_spacings) {
-  constexpr std::size_t places = 8192;
-  const std::size_t stride = std::max<std::size_t>(1, samples.size() / places);
   std::vector<float> residuals;
-  for (std::size_t i = 0; i < samples.size(); i += stride) {
-    const Surroundings s = surroundings_of(samples, neighbors.of(i), i, sight, longest_edge_spacings);
-    if (s.count < 5) continue;
+  neighbors.for_some([&](std::size_t i, std::span<const std::uint32_t> around) {
+    if (!seen(samples[i])) return;
+    const Surroundings s = surroundings_of(samples, around, i, sight, longest_edge_spacings);
+    if (s.count < 5) return;
     const Plane plane = fitted_plane(s);
     const auto count = static_cast<float>(s.count);
     residuals.push_back(std::abs(plane.at) * plane.cosine() * std::sqrt(count / (count + 1)));
-  }
-  if (residuals.empty()) return 0;
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return 1.4826F * *middle;  // from the median absolute value of a normal variable to its deviation
+  });
+  return deviation_of(std::move(residuals));
 }
 
 Plane robust_plane(Surroundings& s, float noise) {
@@ -135,19 +131,16 @@ std::vector<RangeSample> denoised(const std::vector<RangeSample>& samples, const
   constexpr float least_noise_spacings = 0.01F;
   const float noise = std::max(least_noise_spacings, noise_of(samples, neighbors, sight, longest));
   std::vector<RangeSample> result = samples;
-  parallel_for(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (neighbors.of(i).empty()) continue;
-      Surroundings s = surroundings_of(samples, neighbors.of(i), i, sight, longest);
-      s.add(0, 0, 0, 1);
-      const Plane plane = robust_plane(s, noise);
-      result[i].depth +=
-          plane.at * static_cast<float>(sight.spacing_at(static_cast<double>(samples[i].depth)));
-      result[i].slope_x = plane.slope_x;
-      result[i].slope_y = plane.slope_y;
-    }
+  neighbors.for_all([&](std::size_t i, std::span<const std::uint32_t> around) {
+    if (!seen(samples[i]) || around.empty()) return;
+    Surroundings s = surroundings_of(samples, around, i, sight, longest);
+    s.add(0, 0, 0, 1);
+    const Plane plane = robust_plane(s, noise);
+    result[i].depth += plane.at * static_cast<float>(sight.spacing_at(static_cast<double>(samples[i].depth)));
+    result[i].slope_x = plane.slope_x;
+    result[i].slope_y = plane.slope_y;
   });
-  return result;
+  return averaged_over_surfaces(std::move(result), neighbors, sight, noise);
 }
 
 }  // namespace drape::meshing

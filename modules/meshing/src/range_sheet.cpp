@@ -4,21 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 #include "drape/base/random.hpp"
 #include "planar_delaunay.hpp"
 #include "range_denoising.hpp"
+#include "sample_neighbors.hpp"
 
 namespace drape::meshing {
 namespace {
 
 constexpr float unseen = std::numeric_limits<float>::quiet_NaN();
-
-bool seen(const RangeSample& sample) {
-  return !std::isnan(sample.depth);
-}
 
 std::vector<RangeSample> samples_of(const RangeScan& scan, const Rigid3& world_from_scan, Sight& sight) {
   const auto count = scan.cloud.size();
@@ -47,44 +43,6 @@ std::vector<RangeSample> samples_of(const RangeScan& scan, const Rigid3& world_f
   }
   sight.corner = least * sight.pitch;
   return samples;
-}
-
-// The eight lattice neighbours that are there.
-SampleNeighbors lattice_neighbors(const RangeGrid& grid, const std::vector<RangeSample>& samples) {
-  SampleNeighbors neighbors;
-  neighbors.first.assign(samples.size() + 1, 0);
-  const auto visit = [&](auto&& each) {
-    for (int row = 0; row < grid.rows; ++row)
-      for (int column = 0; column < grid.columns; ++column) {
-        const std::int32_t center = grid.at(row, column);
-        if (center < 0 || !seen(samples[static_cast<std::size_t>(center)])) continue;
-        for (int r = std::max(0, row - 1); r <= std::min(grid.rows - 1, row + 1); ++r)
-          for (int c = std::max(0, column - 1); c <= std::min(grid.columns - 1, column + 1); ++c)
-            if (const std::int32_t i = grid.at(r, c);
-                i >= 0 && i != center && seen(samples[static_cast<std::size_t>(i)]))
-              each(static_cast<std::size_t>(center), static_cast<std::uint32_t>(i));
-      }
-  };
-  visit([&](std::size_t center, std::uint32_t) { ++neighbors.first[center + 1]; });
-  std::partial_sum(neighbors.first.begin(), neighbors.first.end(), neighbors.first.begin());
-  neighbors.indices.resize(neighbors.first.back());
-  std::vector<std::uint32_t> next(neighbors.first.begin(), neighbors.first.end() - 1);
-  visit([&](std::size_t center, std::uint32_t i) { neighbors.indices[next[center]++] = i; });
-  return neighbors;
-}
-
-// The next corners of each sample's faces: in a closed fan that is every neighbour once.
-SampleNeighbors face_neighbors(const std::vector<Face>& faces, std::size_t samples) {
-  SampleNeighbors neighbors;
-  neighbors.first.assign(samples + 1, 0);
-  for (const Face& f : faces)
-    for (const std::uint32_t v : f) ++neighbors.first[v + 1];
-  std::partial_sum(neighbors.first.begin(), neighbors.first.end(), neighbors.first.begin());
-  neighbors.indices.resize(neighbors.first.back());
-  std::vector<std::uint32_t> next(neighbors.first.begin(), neighbors.first.end() - 1);
-  for (const Face& f : faces)
-    for (std::size_t k = 0; k < 3; ++k) neighbors.indices[next[f[k]]++] = f[(k + 1) % 3];
-  return neighbors;
 }
 
 // Decides where the surface ends.
@@ -209,12 +167,12 @@ RangeSheet range_sheet(const RangeScan& scan, const Rigid3& world_from_scan, con
   sheet.samples = samples_of(scan, world_from_scan, sheet.sight);
   const SurfaceTest test(sheet, limits);
   if (scan.grid) {
-    sheet.samples = denoised(sheet.samples, lattice_neighbors(*scan.grid, sheet.samples), sheet.sight,
-                             limits.longest_edge_spacings);
+    sheet.samples =
+        denoised(sheet.samples, SampleNeighbors(*scan.grid), sheet.sight, limits.longest_edge_spacings);
     sheet.faces = lattice_faces(*scan.grid, sheet, test);
   } else {
     sheet.faces = projected_faces(sheet, test);
-    sheet.samples = denoised(sheet.samples, face_neighbors(sheet.faces, sheet.samples.size()), sheet.sight,
+    sheet.samples = denoised(sheet.samples, SampleNeighbors(sheet.faces, sheet.samples.size()), sheet.sight,
                              limits.longest_edge_spacings);
   }
   weigh(sheet);

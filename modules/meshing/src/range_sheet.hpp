@@ -1,6 +1,7 @@
 // One scan as a triangulated height field over its sight.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,11 @@ struct RangeSample {
   float slope_y = 0;
   float weight = 0;  // cos(incidence), less beside the sheet's border; 0: in no face
 };
+
+/// Whether the sight sees it; the depth of the others is not a number.
+[[nodiscard]] inline bool seen(const RangeSample& sample) {
+  return !std::isnan(sample.depth);
+}
 
 struct RangeSheet {
   Sight sight;                       // with its corner set: all columns and rows are at least 3

@@ -31,7 +31,7 @@ pipeline::Stage mesh_stage() {
                  {"ingest", "scans/*.ply"},
                  {"register", "poses.json"},
                  {"register", "cloud.ply"}};
-  stage.version = 2;
+  stage.version = 3;
   stage.writes = {"mesh.ply"};
   stage.applies = [](const pipeline::Input& input) { return !input.scans.empty(); };
   stage.instantiate = pipeline::stage_body(run);

@@ -144,6 +144,16 @@ TEST(Fusion, NoiseIsAveragedAcrossScansAndNeighbours) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(mesh.vertices.size())), 0.4 * setup.noise);
 }
 
+TEST(Fusion, HeavyNoiseIsAveragedOverMoreOfTheSurface) {
+  LatticeSetup setup;
+  setup.noise = 0.7;
+  const TriangleMesh mesh = fuse(scans_of(test::sphere_field(20), six_sides(), setup)).mesh;
+  double squares = 0;
+  for (const Vector3d& p : mesh.vertices) squares += std::pow(p.norm() - 20, 2);
+  // The mean of a few 3 x 3 planes would leave a third of it.
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(mesh.vertices.size())), 0.28 * setup.noise);
+}
+
 TEST(Fusion, SharpEdgesOfABoxStayClosed) {
   const TriangleMesh mesh = fuse(scans_of(test::box_field({15, 12, 10}), six_sides())).mesh;
   expect_sound(mesh);

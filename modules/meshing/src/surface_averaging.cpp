@@ -1,0 +1,182 @@
+#include "surface_averaging.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace drape::meshing {
+namespace {
+
+// In the lattice's own proportions, where a spacing is one across and deep.
+std::vector<Eigen::Vector3f> unit_normals(const std::vector<RangeSample>& samples) {
+  std::vector<Eigen::Vector3f> normals(samples.size());
+  parallel_for(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      normals[i] = Eigen::Vector3f(samples[i].slope_x, samples[i].slope_y, -1).normalized();
+  });
+  return normals;
+}
+
+// Deviation of the difference between the normals of neighbours. Those of adjacent ones have most of their
+// noise in common once they were averaged: it is that at the stride which counts.
+float normal_noise_of(const std::vector<RangeSample>& samples, const std::vector<Eigen::Vector3f>& normals,
+                      const SampleNeighbors& neighbors, int stride) {
+  std::vector<float> differences;
+  neighbors.for_some(
+      [&](std::size_t i, std::span<const std::uint32_t> around) {
+        if (!seen(samples[i])) return;
+        for (const std::uint32_t j : around)
+          if (seen(samples[j])) differences.push_back((normals[i] - normals[j]).norm());
+      },
+      stride);
+  return deviation_of(std::move(differences));
+}
+
+// How far a neighbour lies off a sample's tangent plane along the ray, in spacings, and what it counts.
+struct Tie {
+  float off = 0;
+  float weight = 0;
+};
+
+// What counts as one surface.
+class Likeness {
+ public:
+  Likeness(const std::vector<RangeSample>& samples, const SampleNeighbors& neighbors, const Sight& sight,
+           float noise, int stride)
+      : samples_(samples),
+        sight_(sight),
+        normals_(unit_normals(samples)),
+        per_pixel_(static_cast<float>(1 / sight.pixels_per_spacing)) {
+    // In deviations.
+    constexpr float most_difference = 4;
+    constexpr float most_distance = 3;
+    // Curved surfaces without noise are still one surface.
+    constexpr float least_normal_limit = 0.15F;
+    const float normal_noise = normal_noise_of(samples, normals_, neighbors, stride);
+    per_normal_limit_ = 1 / std::max(least_normal_limit, most_difference * normal_noise);
+    per_distance_limit_ = 1 / (most_distance * noise);
+  }
+
+  [[nodiscard]] float spacing(std::size_t i) const {
+    return static_cast<float>(sight_.spacing_at(static_cast<double>(samples_[i].depth)));
+  }
+  [[nodiscard]] Tie tie(std::size_t center, std::size_t i, float spacing, int stride) const {
+    const RangeSample& c = samples_[center];
+    const RangeSample& n = samples_[i];
+    if (!seen(n)) return {};
+    const float dx = (n.column - c.column) * per_pixel_;
+    const float dy = (n.row - c.row) * per_pixel_;
+    const float dz = (n.depth - c.depth) / spacing;
+    const float off = dz - c.slope_x * dx - c.slope_y * dy;
+    const float from_mine = off * normals_[center].z();
+    const float from_its = (dz - n.slope_x * dx - n.slope_y * dy) * normals_[i].z();
+    const float apart = std::max(std::abs(from_mine), std::abs(from_its)) * per_distance_limit_;
+    // A steep surface's samples are far apart: the reach is that of the stride in space.
+    constexpr float reach_strides = 3;
+    const float reach = reach_strides * static_cast<float>(stride);
+    const float like =
+        1 - (normals_[i] - normals_[center]).squaredNorm() * per_normal_limit_ * per_normal_limit_;
+    const float near = 1 - apart * apart;
+    const float close = 1 - (dx * dx + dy * dy + dz * dz) / (reach * reach);
+    if (!(like > 0 && near > 0 && close > 0)) return {};
+    const float product = like * near * close;
+    return {off, product * product};
+  }
+
+ private:
+  const std::vector<RangeSample>& samples_;
+  const Sight& sight_;
+  std::vector<Eigen::Vector3f> normals_;
+  float per_pixel_;
+  float per_normal_limit_ = 0;
+  float per_distance_limit_ = 0;
+};
+
+RangeSample averaged(const std::vector<RangeSample>& samples, const Likeness& likeness, std::size_t center,
+                     std::span<const std::uint32_t> around, int stride) {
+  RangeSample result = samples[center];
+  const float spacing = likeness.spacing(center);
+  float weight = 1;
+  float shift = 0;
+  for (const std::uint32_t i : around) {
+    const auto [off, w] = likeness.tie(center, i, spacing, stride);
+    if (!(w > 0)) continue;
+    weight += w;
+    shift += w * off;
+    result.slope_x += w * samples[i].slope_x;
+    result.slope_y += w * samples[i].slope_y;
+  }
+  result.depth += shift / weight * spacing;
+  result.slope_x /= weight;
+  result.slope_y /= weight;
+  return result;
+}
+
+float averaged(const std::vector<float>& values, const Likeness& likeness, std::size_t center,
+               std::span<const std::uint32_t> around, int stride) {
+  const float spacing = likeness.spacing(center);
+  float sum = values[center];
+  float weight = 1;
+  for (const std::uint32_t i : around) {
+    const float w = likeness.tie(center, i, spacing, stride).weight;
+    if (!(w > 0)) continue;  // the value of one that is not seen is no number
+    weight += w;
+    sum += w * values[i];
+  }
+  return sum / weight;
+}
+
+// The strides of the rounds. Of fewer, noise is left; of more, shape goes: on simulated scans of five shapes
+// these do best at 0.2, 0.4 and 0.7 spacings of noise.
+std::vector<int> strides_for(float noise, bool on_lattice) {
+  std::vector<int> strides;
+  if (noise >= 0.1F) strides = {1};
+  if (noise >= 0.15F) strides = {1, 2};
+  if (noise >= 0.3F) strides = {1, 2, 2};
+  if (noise >= 0.5F) strides = {1, 2, 2, 4};
+  if (on_lattice) return strides;
+  std::size_t rounds = 0;
+  for (const int stride : strides) rounds += static_cast<std::size_t>(stride * stride);
+  return std::vector<int>(rounds, 1);
+}
+
+}  // namespace
+
+float deviation_of(std::vector<float> magnitudes) {
+  if (magnitudes.empty()) return 0;
+  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
+  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+  return 1.4826F * *middle;
+}
+
+std::vector<RangeSample> averaged_over_surfaces(std::vector<RangeSample> samples,
+                                                const SampleNeighbors& neighbors, const Sight& sight,
+                                                float noise) {
+  const std::vector<int> strides = strides_for(noise, neighbors.has_strides());
+  if (strides.empty()) return samples;
+  std::vector<float> rest(samples.size(), 0.0F);
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = samples[i].depth;
+  for (const int stride : strides) {
+    const std::vector<RangeSample> before = samples;
+    const Likeness likeness(before, neighbors, sight, noise, stride);
+    neighbors.for_all(
+        [&](std::size_t i, std::span<const std::uint32_t> around) {
+          if (seen(before[i])) samples[i] = averaged(before, likeness, i, around, stride);
+        },
+        stride);
+  }
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= samples[i].depth;
+  const Likeness likeness(samples, neighbors, sight, noise, strides.back());
+  for (const int stride : strides) {
+    const std::vector<float> before = rest;
+    neighbors.for_all(
+        [&](std::size_t i, std::span<const std::uint32_t> around) {
+          if (seen(samples[i])) rest[i] = averaged(before, likeness, i, around, stride);
+        },
+        stride);
+  }
+  for (std::size_t i = 0; i < rest.size(); ++i) samples[i].depth += rest[i];
+  return samples;
+}
+
+}  // namespace drape::meshing
