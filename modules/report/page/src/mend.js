@@ -27,7 +27,7 @@ function outcome(fixes, data, forget) {
     element('pre', {class: 'wrap'}, element('code', {}, command(data))),
     element('p', {class: 'meta'}, window.opener
       ? 'The page of the batch that opened this one collects it too, with those of the other objects.'
-      : 'Only what the fixes touch runs again; they stay with the run until `--fixes none`.'));
+      : 'Only what the fixes touch runs again; they stay with the run until drape run gets --fixes none.'));
   made.update = () => {
     file.firstChild.textContent = fixes.empty ? '# nothing yet' : fixes.file;
     load.disabled = clear.disabled = fixes.empty;
