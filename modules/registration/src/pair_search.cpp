@@ -29,11 +29,11 @@ constexpr int fit_steps = 24;
 constexpr double hinted_cosine = 0.9;  // of half the rotation that a guess may be off the hint
 
 // Right pairs of real scans lie 0.14 to 0.26 voxels apart, wrong ones 0.31 to 0.48. What contradicts the
-// lines of sight is up to 2.4 % of what they share firmly in right pairs of real scans, 1.1 % in those of
+// lines of sight is up to 3.1 % of what they share firmly in right pairs of real scans, 1.1 % in those of
 // simulated ones, and over 4 % in the wrong ones of both that nothing else gives away.
 constexpr double least_overlap = 0.1;
 constexpr double most_rms_voxels = 0.28;
-constexpr double most_contradiction = 0.03;  // of the firm overlap
+constexpr double most_contradiction = 0.035;  // of the firm overlap
 constexpr double most_contradiction_of_weak = 0.01;
 // Noise holds even a body of rotation by up to 0.0034. Below 0.025 wrong pairs occur that hardly contradict
 // anything.
