@@ -126,7 +126,7 @@ float averaged(const std::vector<float>& values, const Likeness& likeness, std::
   return sum / weight;
 }
 
-// The strides of the rounds. Of fewer, noise is left; of more, shape goes: on simulated scans of five shapes
+// The strides of the rounds. Of fewer, noise is left; of more, shape goes: on simulated scans of two shapes
 // these do best at 0.2, 0.4 and 0.7 spacings of noise.
 std::vector<int> strides_for(float noise, bool on_lattice) {
   std::vector<int> strides;
