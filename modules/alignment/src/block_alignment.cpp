@@ -23,7 +23,7 @@ constexpr double distinct_rad = 10 / degrees;
 constexpr std::size_t kept_after_glance = 6;
 constexpr int coarse_faces = 1500;
 constexpr int middle_faces = 8000;
-// Limits of the verdict, as for single photos, chosen on simulated blocks.
+// Limits of the verdict: those of single photos.
 constexpr double least_inliers = 0.5;
 constexpr double good_inliers = 0.85;
 constexpr double least_margin = 0.03;
