@@ -13,6 +13,7 @@
 #include "pose_search.hpp"
 #include "simplified_mesh.hpp"
 #include "stencil_evidence.hpp"
+#include "verdict_limits.hpp"
 
 namespace drape::alignment {
 namespace {
@@ -23,10 +24,6 @@ constexpr double distinct_rad = 10 / degrees;
 constexpr std::size_t kept_after_glance = 6;
 constexpr int coarse_faces = 1500;
 constexpr int middle_faces = 8000;
-// Limits of the verdict: those of single photos.
-constexpr double least_inliers = 0.5;
-constexpr double good_inliers = 0.85;
-constexpr double least_margin = 0.03;
 
 /// One photo of the block with what does not change.
 struct Shot {

@@ -1,11 +1,6 @@
 #include "polar_view.hpp"
 
-// The compilers' baseline for x86-64 has no popcount instruction; both versions count the same.
-#if defined(__x86_64__) && defined(__gnu_linux__)
-#define DRAPE_FAST_POPCOUNT __attribute__((target_clones("popcnt", "default")))
-#else
-#define DRAPE_FAST_POPCOUNT
-#endif
+#include "fast_popcount.hpp"
 
 namespace drape::alignment {
 

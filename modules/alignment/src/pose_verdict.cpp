@@ -1,5 +1,7 @@
 #include "pose_verdict.hpp"
 
+#include "verdict_limits.hpp"
+
 #include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
@@ -11,9 +13,6 @@ namespace drape::alignment {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double least_inliers = 0.5;  // of the outline: with less the object is another one
-constexpr double good_inliers = 0.85;
-constexpr double least_margin = 0.03;  // of the score, over the best other pose
 constexpr double most_sigma_deg = 1.5;
 constexpr double same_axis = 0.95;    // cosine
 constexpr double free_sigma_deg = 8;  // about one axis: the outline hardly changes with the rotation
