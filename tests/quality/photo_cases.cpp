@@ -15,7 +15,9 @@
 #include "drape/rendering/renderer.hpp"
 #include "drape/simulation/objects.hpp"
 #include "drape/simulation/virtual_camera.hpp"
+#include "real_photos.hpp"
 #include "support.hpp"
+#include "visual_hull.hpp"
 
 namespace drape {
 namespace {
@@ -102,6 +104,26 @@ std::vector<PhotoCase> lmo_cases() {
     photo.truth = camera_of(item, photo.rgb.width(), photo.rgb.height());
     photo.silhouette = rendering::Renderer(photo.mesh).stencil(photo.truth);
     cases.push_back(std::move(photo));
+  }
+  return cases;
+}
+
+std::vector<PhotoCase> dino_cases() {
+  std::vector<PhotoCase> cases;
+  std::vector<lab::Outline> outlines;
+  const std::vector<lab::PosedPhoto> photos = lab::posed_photos("dino");
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    Image8 rgb = io::read_photo(photos[i].image).rgb;
+    if (i % 2 == 0)
+      outlines.push_back({photos[i].truth, lab::dino_stencil(rgb)});
+    else
+      cases.push_back({photos[i].name, {}, std::move(rgb), photos[i].truth, {}});
+  }
+  if (cases.empty()) return cases;
+  const TriangleMesh hull = lab::dino_hull(outlines);
+  for (PhotoCase& photo : cases) {
+    photo.mesh = hull;
+    photo.silhouette = rendering::Renderer(hull).stencil(photo.truth);
   }
   return cases;
 }

@@ -25,6 +25,9 @@ struct PhotoCase {
 /// The photos of DRAPE_TEST_DATA's photos/lmo; their true cameras are coarse.
 [[nodiscard]] std::vector<PhotoCase> lmo_cases();
 
+/// Every second photo of photos/dino, of a hull that is carved from the others: black surroundings, a clamp.
+[[nodiscard]] std::vector<PhotoCase> dino_cases();
+
 enum class Scene {
   clutter,  // on a table among other things
   studio    // before plain grey, on a plinth that the mesh does not have

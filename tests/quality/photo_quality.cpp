@@ -1,10 +1,11 @@
-// How well objects are found in photos by their mesh, with no stencil: colours in, a table out.
+// How well objects are found in photos by their mesh, with no stencil given: a photo in, a table out.
 //
-//   photo_quality [rows=clutter,studio,absent,lmo] [kinds=box,click,unaided] [photos=N] [draws=N] [pairs=N]
-//                 [skip=N] [cache=FOLDER] [verbose] [option=value ...]
+//   photo_quality [rows=clutter,studio,dino,absent,lmo] [kinds=box,click,unaided] [photos=N] [draws=N]
+//                 [pairs=N] [skip=N] [cache=FOLDER] [verbose] [option=value ...]
 //
 // `draws`: boxes and clicks a photo; `photos`: simulated ones a row; `pairs`: of a mesh and a photo without
-// it; options are those of `align:`.
+// it; options are those of `align:`. With a box or a click the colours alone are the evidence; unaided, the
+// photo is segmented and aligned as a run does it with its defaults.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 
 #include "drape/alignment/align.hpp"
 #include "drape/metrics/distribution.hpp"
+#include "drape/segmentation/segment_photo.hpp"
 #include "photo_cases.hpp"
 #include "program_arguments.hpp"
 
@@ -27,7 +29,7 @@ using alignment::PhotoEvidence;
 using alignment::Verdict;
 
 struct Arguments {
-  std::string rows = "clutter,studio,absent,lmo";
+  std::string rows = "clutter,studio,dino,absent,lmo";
   std::string kinds;  // empty: box, click and unaided
   int photos = 14;
   int draws = 4;
@@ -92,7 +94,14 @@ struct Hint {
 };
 
 Alignment align(const TriangleMesh& mesh, const Image8& rgb, const Hint& hint,
-                const alignment::AlignOptions& options) {
+                alignment::AlignOptions options) {
+  if (!hint.box && !hint.click) {
+    const segmentation::Segmentation found = segmentation::segment_photo(rgb, {}, {}, {}, 1);
+    PhotoEvidence evidence{found.stencil, std::nullopt, &rgb};
+    evidence.stencil_confidence = found.confidence;
+    options.evidence = alignment::EvidenceKind::automatic;
+    return alignment::align_photo(mesh, evidence, options, 1, {});
+  }
   const Image8 nothing(rgb.width(), rgb.height(), 1, stencil::unknown);
   PhotoEvidence evidence{nothing, std::nullopt, &rgb};
   evidence.stencil_confidence = 0;
@@ -163,12 +172,23 @@ void print_verdicts(const std::string& row, std::vector<Outcome> outcomes) {
   std::fflush(stdout);
 }
 
-// Objects that are not in the photo, each sought in a box round something else.
+// Of `count` in `n`: the upper bound of Wilson (1927).
+double upper_bound(double count, double n) {
+  const double share = count / n;
+  const double z = 1.96;
+  return (share + z * z / (2 * n) + z * std::sqrt(share * (1 - share) / n + z * z / (4 * n * n))) /
+         (1 + z * z / n);
+}
+
+// Objects that are not in the photo, each sought in a box round something else. What is known so far is
+// printed as it grows: the whole takes long, and may be stopped.
 void measure_absent(const Arguments& arguments) {
   const std::vector<AbsentCase> cases = absent_cases(arguments.pairs, arguments.cache);
   int counts[3] = {0, 0, 0};
   double seconds = 0;
+  int done = 0;
   for (const AbsentCase& absent : cases) {
+    if (done++ < arguments.skip) continue;
     Hint hint;
     hint.box = absent.box;
     const double before = test::cpu_seconds();
@@ -182,19 +202,14 @@ void measure_absent(const Arguments& arguments) {
                                                     : "rejected",
                  found.candidates.empty() ? 0 : found.candidates.front().score,
                  found.edge_support.value_or(0), found.inlier_fraction);
+    const double n = counts[0] + counts[1] + counts[2];
+    if (done % 25 == 0 || done == static_cast<int>(cases.size()))
+      fmt::print(
+          "absent: {} pairs | accepted {} (95 % upper bound {:.1f} %), for review {}, rejected {} | CPU s "
+          "{:.2f}\n",
+          n, counts[0], 100 * upper_bound(counts[0], n), counts[1], counts[2], seconds / n);
     std::fflush(stdout);
   }
-  const auto n = static_cast<double>(cases.size());
-  // Of k in n: Wilson's upper bound (1927).
-  const double share = counts[0] / n;
-  const double z = 1.96;
-  const double upper =
-      (share + z * z / (2 * n) + z * std::sqrt(share * (1 - share) / n + z * z / (4 * n * n))) /
-      (1 + z * z / n);
-  fmt::print(
-      "absent: {} pairs | accepted {} (95 % upper bound {:.1f} %), for review {}, rejected {} | CPU s "
-      "{:.2f}\n",
-      cases.size(), counts[0], 100 * upper, counts[1], counts[2], seconds / n);
 }
 
 TriangleMesh without_colors(TriangleMesh mesh) {
@@ -265,6 +280,11 @@ void run(const Arguments& arguments) {
     measure(simulated(Scene::clutter, arguments), "clutter", false, 1, simulated_limits, arguments);
   if (wants("studio"))
     measure(simulated(Scene::studio, arguments), "studio", false, 1, simulated_limits, arguments);
+  if (wants("dino")) {
+    const std::vector<PhotoCase> photos = dino_cases();
+    if (photos.empty()) fmt::print("dino skipped: needs photos/dino of DRAPE_TEST_DATA\n");
+    measure(photos, "dino", false, 1, real_limits, arguments);
+  }
   if (wants("absent")) measure_absent(arguments);
   if (wants("lmo")) {
     const std::vector<PhotoCase> photos = lmo_cases();

@@ -17,6 +17,15 @@ struct LocalColor {
   std::array<float, 3> lab{};
 };
 
+// Whether a reduced pixel and all about it are of one label.
+bool inside_one_label(const Labels& small, int x, int y) {
+  const std::int32_t label = small.at(x, y);
+  for (int ny = std::max(0, y - 1); ny <= std::min(small.height() - 1, y + 1); ++ny)
+    for (int nx = std::max(0, x - 1); nx <= std::min(small.width() - 1, x + 1); ++nx)
+      if (small.at(nx, ny) != label) return false;
+  return true;
+}
+
 // The labels within a reduced pixel's 3 x 3 neighbours, each with its mean colour in a wider window.
 std::vector<LocalColor> local_colors(const Labels& small, const ImageF& lab, int x, int y) {
   std::vector<LocalColor> found;
@@ -27,7 +36,6 @@ std::vector<LocalColor> local_colors(const Labels& small, const ImageF& lab, int
   for (int ny = std::max(0, y - 1); ny <= std::min(small.height() - 1, y + 1); ++ny)
     for (int nx = std::max(0, x - 1); nx <= std::min(small.width() - 1, x + 1); ++nx)
       if (entry(small.at(nx, ny)) == found.end()) found.push_back({small.at(nx, ny), {}});
-  if (found.size() == 1) return found;
   counts.assign(found.size(), 0);
   for (int ny = std::max(0, y - window); ny <= std::min(small.height() - 1, y + window); ++ny)
     for (int nx = std::max(0, x - window); nx <= std::min(small.width() - 1, x + window); ++nx) {
@@ -49,35 +57,35 @@ Labels refined_labels(const Labels& small, const ImageF& small_lab, const Image8
   const auto first = [](int i, int from, int to) {  // first full pixel whose centre lies in reduced pixel i
     return static_cast<int>((static_cast<std::int64_t>(2 * i) * to + from) / (2 * from));
   };
+  // The block of full pixels of one reduced pixel: all of its label, or where labels meet, each of the label
+  // with the nearest colour.
+  const auto refine_block = [&](int x, int y) {
+    const int left = first(x, small.width(), rgb.width());
+    const int right = first(x + 1, small.width(), rgb.width());
+    const int top = first(y, small.height(), rgb.height());
+    const int bottom = first(y + 1, small.height(), rgb.height());
+    if (inside_one_label(small, x, y)) {
+      for (int py = top; py < bottom; ++py) std::fill_n(&full.at(left, py), right - left, small.at(x, y));
+      return;
+    }
+    const std::vector<LocalColor> near = local_colors(small, small_lab, x, y);
+    Image8 block(right - left, bottom - top, 3);
+    for (int py = top; py < bottom; ++py)
+      std::copy_n(&rgb.at(left, py), 3 * (right - left), block.row(py - top).begin());
+    const ImageF lab = lab_image(block);
+    for (int py = top; py < bottom; ++py)
+      for (int px = left; px < right; ++px)
+        full.at(px, py) =
+            std::min_element(near.begin(), near.end(),
+                             [&, color = &lab.at(px - left, py - top)](const auto& a, const auto& b) {
+                               return squared_difference(color, a.lab.data()) <
+                                      squared_difference(color, b.lab.data());
+                             })
+                ->label;
+  };
   parallel_for(static_cast<std::size_t>(small.height()), 4, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-      for (int x = 0; x < small.width(); ++x) {
-        const std::vector<LocalColor> near = local_colors(small, small_lab, x, y);
-        const int left = first(x, small.width(), rgb.width());
-        const int right = first(x + 1, small.width(), rgb.width());
-        const int top = first(y, small.height(), rgb.height());
-        const int bottom = first(y + 1, small.height(), rgb.height());
-        Image8 block(right - left, bottom - top, 3);
-        ImageF lab;
-        if (near.size() > 1) {
-          for (int py = top; py < bottom; ++py)
-            std::copy_n(&rgb.at(left, py), 3 * (right - left), block.row(py - top).begin());
-          lab = lab_image(block);
-        }
-        for (int py = top; py < bottom; ++py)
-          for (int px = left; px < right; ++px) {
-            std::int32_t best = small.at(x, y);
-            float least = std::numeric_limits<float>::max();
-            if (near.size() > 1)
-              for (const LocalColor& c : near) {
-                const float d = squared_difference(&lab.at(px - left, py - top), c.lab.data());
-                if (d >= least) continue;
-                least = d;
-                best = c.label;
-              }
-            full.at(px, py) = best;
-          }
-      }
+      for (int x = 0; x < small.width(); ++x) refine_block(x, y);
   });
   return full;
 }

@@ -82,6 +82,11 @@ Image8 dino_stencil(const Image8& rgb) {
   return stencil;
 }
 
+TriangleMesh dino_hull(const std::vector<Outline>& outlines) {
+  const BoundingBox box(Eigen::Vector3d(-0.046, -0.003, -0.042), Eigen::Vector3d(0.035, 0.092, 0.040));
+  return visual_hull(outlines, box, 0.0006);
+}
+
 std::vector<MaskedPhoto> masked_photos() {
   std::vector<MaskedPhoto> photos;
   if (!test::have_data("segmentation")) return photos;

@@ -7,6 +7,8 @@
 
 #include "drape/geometry/camera.hpp"
 #include "drape/geometry/image.hpp"
+#include "drape/geometry/triangle_mesh.hpp"
+#include "visual_hull.hpp"
 
 namespace drape::lab {
 
@@ -24,6 +26,9 @@ struct PosedPhoto {
 /// Outline of the bright object on black of a dino photo: all above 0.19 of full scale, closed and grown as
 /// the photos' publisher tells it (dilated by 10 pixels, eroded by 7), its largest part without holes.
 [[nodiscard]] Image8 dino_stencil(const Image8& rgb);
+
+/// The dino carved from these, in the box that its publisher states and a little around it.
+[[nodiscard]] TriangleMesh dino_hull(const std::vector<Outline>& outlines);
 
 /// A photo and its hand-made stencil, of segmentation/.
 struct MaskedPhoto {

@@ -151,9 +151,7 @@ Dino make_dino(const std::vector<PosedPhoto>& photos) {
     dino.rgbs.push_back(std::move(rgb));
     dino.stencils.push_back(std::move(stencil));
   }
-  // Of the object, as published, and a little around it.
-  const BoundingBox box(Eigen::Vector3d(-0.046, -0.003, -0.042), Eigen::Vector3d(0.035, 0.092, 0.040));
-  dino.hull = visual_hull(outlines, box, 0.0006);
+  dino.hull = dino_hull(outlines);
   fmt::print("dino: a hull of {} faces from {} photos\n", dino.hull.faces.size(), outlines.size());
   return dino;
 }
