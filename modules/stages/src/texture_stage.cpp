@@ -83,6 +83,9 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
     if (result.views[i].warp_px > 0)
       run.metric("photo_" + three_digits(i) + "_warp_px", result.views[i].warp_px);
   for (std::size_t i = 0; i < result.views.size(); ++i)
+    if (result.views[i].pose_px > 0)
+      run.metric("photo_" + three_digits(i) + "_pose_px", result.views[i].pose_px);
+  for (std::size_t i = 0; i < result.views.size(); ++i)
     if (!result.views[i].reason.empty())
       run.metric("photo_" + three_digits(i) + "_not_used", result.views[i].reason);
 }
@@ -92,7 +95,7 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
 pipeline::Stage texture_stage() {
   pipeline::Stage stage;
   stage.name = "texture";
-  stage.version = 2;
+  stage.version = 3;
   stage.summary = "Drapes the photos over the mesh: hidden surfaces, borders, unseen parts.";
   stage.input_parts = {"photos"};
   stage.reads = {{"fill", "mesh.ply"},

@@ -5,8 +5,10 @@
 
 #include "atlas_packing.hpp"
 #include "drape/base/parallel.hpp"
+#include "face_edges.hpp"
 #include "linear_light.hpp"
 #include "pull_push.hpp"
+#include "seam_texels.hpp"
 #include "triangle_raster.hpp"
 #include "usable_pixels.hpp"
 #include "view_choice.hpp"
@@ -189,6 +191,34 @@ Layout laid_out(const AtlasPaint& paint, int most_side, int padding) {
   }
 }
 
+// Where the surface goes on at another place of the atlas.
+std::vector<Seam> seams_of(const AtlasPaint& paint, const Atlas& atlas) {
+  const TriangleMesh& mesh = paint.surface.mesh;
+  const auto place_of = [&](std::uint32_t face, std::uint32_t vertex) -> Eigen::Vector2d {
+    const Face& f = mesh.faces[face];
+    const auto k = static_cast<std::size_t>(std::find(f.begin(), f.end(), vertex) - f.begin());
+    return atlas.corner_uvs[face][k].cast<double>() * atlas.pages[atlas.face_pages[face]].color.width();
+  };
+  std::vector<Seam> seams;
+  for (const FaceEdge& e : face_edges(mesh)) {
+    if (paint.chosen[e.first] == no_view || paint.chosen[e.second] == no_view) continue;
+    Seam seam;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::uint32_t f = i == 0 ? e.first : e.second;
+      seam.sides[i] = {atlas.face_pages[f], place_of(f, e.low), place_of(f, e.high)};
+    }
+    const auto& [a, b] = seam.sides;
+    if (a.page != b.page || a.from != b.from || a.to != b.to) seams.push_back(seam);
+  }
+  return seams;
+}
+
+void match_seams(const AtlasPaint& paint, Atlas& atlas) {
+  std::vector<Image8*> pages;
+  for (AtlasPage& page : atlas.pages) pages.push_back(&page.color);
+  match_texels_along(seams_of(paint, atlas), pages);
+}
+
 }  // namespace
 
 Atlas painted_atlas(const AtlasPaint& paint, int most_side, int padding_px, const Progress& progress) {
@@ -225,6 +255,7 @@ Atlas painted_atlas(const AtlasPaint& paint, int most_side, int padding_px, cons
     all += static_cast<double>(side) * side;
     atlas.pages.push_back(PagePainter(paint, std::move(faces[page]), side).painted());
   }
+  if (paint.match_seams) match_seams(paint, atlas);
   if (pixels > 0) atlas.texels_per_pixel = std::sqrt(used / pixels);
   atlas.used_percent = all > 0 ? 100 * used / all : 0;
   return atlas;

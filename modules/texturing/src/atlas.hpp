@@ -21,6 +21,7 @@ struct AtlasPaint {
   std::span<const VertexGains> gains;
   std::span<const PhotoSight> sights;
   std::span<const PhotoColors> colors;
+  bool match_seams = true;  // texels on both sides of a seam show the same (match_texels_along)
 };
 
 struct AtlasPage {

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+
+#include "distance_field.hpp"
 
 namespace drape::texturing {
 namespace {
@@ -42,61 +43,20 @@ Cell cell_at(const Eigen::Vector2d& pixel, const Eigen::Vector2d& origin, double
   return {column, row, spline_weights(x), spline_weights(y)};
 }
 
-// Positive inside, in pixels; smoothed, so that the steps of pixels do not show.
-cv::Mat signed_distance(const Image8& stencil, int step) {
-  cv::Mat inside((stencil.height() + step - 1) / step, (stencil.width() + step - 1) / step, CV_8U);
-  for (int y = 0; y < inside.rows; ++y)
-    for (int x = 0; x < inside.cols; ++x)
-      inside.at<std::uint8_t>(y, x) = stencil.at(x * step, y * step) == stencil::object ? 255 : 0;
-  cv::Mat within;
-  cv::Mat beyond;
-  cv::distanceTransform(inside, within, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  cv::distanceTransform(255 - inside, beyond, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  cv::Mat distance = within - beyond;
-  cv::GaussianBlur(distance, distance, {5, 5}, 1.0);
-  return distance * static_cast<double>(step);
-}
-
-// A distance field in the coordinates of the photo.
-class Field {
- public:
-  Field(cv::Mat values, int step) : values_(std::move(values)), step_(step) {}
-  [[nodiscard]] double at(const Eigen::Vector2d& pixel) const {
-    const double px = std::clamp((pixel.x() - 0.5) / step_, 0.0, values_.cols - 1.001);
-    const double py = std::clamp((pixel.y() - 0.5) / step_, 0.0, values_.rows - 1.001);
-    const int x = static_cast<int>(px);
-    const int y = static_cast<int>(py);
-    const double fx = px - x;
-    const double fy = py - y;
-    const int right = std::min(x + 1, values_.cols - 1);
-    const int below = std::min(y + 1, values_.rows - 1);
-    return (1 - fy) * ((1 - fx) * values_.at<float>(y, x) + fx * values_.at<float>(y, right)) +
-           fy * ((1 - fx) * values_.at<float>(below, x) + fx * values_.at<float>(below, right));
-  }
-  [[nodiscard]] Eigen::Vector2d slope_at(const Eigen::Vector2d& pixel) const {
-    const double h = 1.5 * step_;
-    const Eigen::Vector2d dx(h, 0);
-    const Eigen::Vector2d dy(0, h);
-    return Eigen::Vector2d(at(pixel + dx) - at(pixel - dx), at(pixel + dy) - at(pixel - dy)) / (2 * h);
-  }
-
- private:
-  cv::Mat values_;
-  int step_;
-};
-
 struct OutlinePoint {
   Eigen::Vector2d pixel;
   double distance;  // of the model's own field: within half a pixel
 };
 
 // Pixels along the model's outline, but not where the photo's frame cuts it or the stencil does not know.
-std::vector<OutlinePoint> outline_points(const cv::Mat& model, const Image8& photo, int step) {
+std::vector<OutlinePoint> outline_points(const DistanceField& field, const Image8& photo) {
   constexpr int frame = 3;
+  const ImageF& model = field.values();
+  const int step = field.step();
   std::vector<OutlinePoint> points;
-  for (int y = frame; y + frame < model.rows; ++y)
-    for (int x = frame; x + frame < model.cols; ++x) {
-      const float d = model.at<float>(y, x);
+  for (int y = frame; y + frame < model.height(); ++y)
+    for (int x = frame; x + frame < model.width(); ++x) {
+      const float d = model.at(x, y);
       if (std::abs(d) > 0.75F * static_cast<float>(step)) continue;
       bool known = true;
       for (const auto& [dx, dy] : {std::pair{-2, 0}, {2, 0}, {0, -2}, {0, 2}, {0, 0}})
@@ -122,7 +82,7 @@ void add_bending(Eigen::MatrixXd& normal, int columns, int rows) {
   normal.diagonal().array() += 1e-5;
 }
 
-double mean_miss(const std::vector<OutlinePoint>& points, const Field& photo, const OutlineWarp& warp,
+double mean_miss(const std::vector<OutlinePoint>& points, const DistanceField& photo, const OutlineWarp& warp,
                  double most_px) {
   double sum = 0;
   for (const OutlinePoint& p : points)
@@ -156,9 +116,8 @@ Eigen::Vector2d OutlineWarp::shift_at(const Eigen::Vector2d& pixel) const {
 SnappedOutline snapped_outline(const Image8& model, const Image8& photo, double most_px) {
   if (most_px <= 0 || photo.empty()) return {};
   const int step = std::max(1, std::max(model.width(), model.height()) / most_pixels_along);
-  const cv::Mat model_distance = signed_distance(model, step);
-  const Field field(signed_distance(photo, step), step);
-  const std::vector<OutlinePoint> points = outline_points(model_distance, photo, step);
+  const DistanceField field(photo, step);
+  const std::vector<OutlinePoint> points = outline_points(DistanceField(model, step), photo);
   if (points.size() < least_points) return {};
   const double before = mean_miss(points, field, {}, most_px);
   if (before < negligible_px) return {};

@@ -5,17 +5,14 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <set>
 
 #include "atlas.hpp"
 #include "coverage_picture.hpp"
 #include "drape/base/error.hpp"
-#include "drape/geometry/bounding_box.hpp"
-#include "drape/rendering/renderer.hpp"
 #include "linear_light.hpp"
 #include "photo_materials.hpp"
-#include "photo_sight.hpp"
+#include "photo_sights.hpp"
 #include "unseen_surface.hpp"
 #include "usable_pixels.hpp"
 #include "view_choice.hpp"
@@ -24,8 +21,6 @@
 namespace drape::texturing {
 namespace {
 
-constexpr double least_tolerance = 1e-5;  // of the mesh's extent
-constexpr double most_pose_erosion_px = 6;
 constexpr double blend_px = 12;  // how wide photos go over into each other, on each side of a seam
 constexpr int padding_px = 4;    // round the charts of an atlas
 
@@ -49,66 +44,6 @@ void check_view(const TextureView& view) {
                       stencil.width(), stencil.height(), rgb.width(), rgb.height());
   if (!view.camera.P().allFinite() || view.camera.K.determinant() == 0)
     throw input_error("photo {}: its camera holds numbers that make no camera", view.name);
-}
-
-bool same_surface(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.faces == b.faces && a.vertices == b.vertices;
-}
-
-// The usable views, as indices, and what each sees.
-struct Sights {
-  std::vector<std::size_t> views;
-  std::vector<PhotoSight> sights;
-  std::vector<double> warps_px;
-};
-
-Image8 stencil_of(const ImageF& depth, const Camera& camera) {
-  Image8 stencil(camera.width, camera.height, 1, stencil::background);
-  for (int y = 0; y < camera.height; ++y)
-    for (int x = 0; x < camera.width; ++x) {
-      const auto reduced = [](int at, int from, int to) {
-        return static_cast<int>(static_cast<std::int64_t>(at) * to / from);
-      };
-      if (std::isfinite(
-              depth.at(reduced(x, camera.width, depth.width()), reduced(y, camera.height, depth.height()))))
-        stencil.at(x, y) = stencil::object;
-    }
-  return stencil;
-}
-
-Sights sights_of(const TriangleMesh& simplified, const TriangleMesh& full, std::span<const TextureView> views,
-                 const TextureOptions& options, const Progress& progress) {
-  Sights out;
-  std::optional<rendering::Renderer> full_renderer;
-  std::optional<rendering::Renderer> simplified_renderer;
-  const double least = least_tolerance * bounding_box(full.vertices).diagonal().norm();
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    progress.update(static_cast<double>(i) / static_cast<double>(views.size()),
-                    "drawing what the photos see");
-    const TextureView& view = views[i];
-    if (!view.usable) continue;
-    if (!full_renderer) full_renderer.emplace(full);
-    const Camera camera = depth_camera(view.camera);
-    rendering::DepthMap map = full_renderer->depth_map(camera);
-    double tolerance = least;
-    if (!same_surface(simplified, full)) {
-      if (!simplified_renderer) simplified_renderer.emplace(simplified);
-      tolerance =
-          std::max(least, surface_deviation(simplified_renderer->depth_map(camera), simplified, map, camera));
-    }
-    SnappedOutline snapped;
-    if (options.warp_max_px > 0 && !view.stencil.empty())
-      snapped = snapped_outline(stencil_of(map.depth, view.camera), view.stencil, options.warp_max_px);
-    const double erode_px =
-        options.stencil_erode_px + std::min(most_pose_erosion_px, std::max(0.0, view.pose_sigma_px));
-    out.views.push_back(i);
-    out.warps_px.push_back(snapped.largest_px);
-    out.sights.emplace_back(
-        view.camera, std::move(snapped.warp), std::move(map.depth),
-        usable_pixels(view.stencil, view.rgb.width(), view.rgb.height(), erode_px, options.fill_px),
-        tolerance, options.max_incidence_deg);
-  }
-  return out;
 }
 
 std::string material_name(const std::string& wanted, std::set<std::string>& taken) {
@@ -246,7 +181,8 @@ void add_photo_materials(const Painting& p, const FaceLists& faces_of, std::span
 
 void add_atlas(const Painting& p, const TextureOptions& options, std::set<std::string>& names,
                const Progress& progress, TextureResult& result) {
-  const AtlasPaint paint{p.surface, p.chosen, p.blends, p.gains, p.sights.sights, p.colors};
+  const AtlasPaint paint{p.surface,       p.chosen, p.blends,           p.gains,
+                         p.sights.sights, p.colors, options.level_seams};
   Atlas atlas = painted_atlas(paint, options.atlas_size_px, padding_px, progress);
   result.texels_per_pixel = atlas.texels_per_pixel;
   result.atlas_used_percent = atlas.used_percent;
@@ -361,8 +297,10 @@ TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& f
   else
     add_photo_materials(p, faces_of, views, options, names, result);
   add_coverage(p, faces_of, views, result);
-  for (std::size_t s = 0; s < p.sights.views.size(); ++s)
+  for (std::size_t s = 0; s < p.sights.views.size(); ++s) {
     result.views[p.sights.views[s]].warp_px = p.sights.warps_px[s];
+    result.views[p.sights.views[s]].pose_px = p.sights.poses_px[s];
+  }
   for (std::size_t i = 0; i < views.size(); ++i)
     if (!views[i].usable)
       result.views[i].reason = "not usable";

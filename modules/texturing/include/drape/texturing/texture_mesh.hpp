@@ -33,6 +33,7 @@ struct TextureOptions {
   double max_incidence_deg = 85;
   double stencil_erode_px = 1.5;
   double fill_px = 6;
+  double pose_max_px = 12;
   double warp_max_px = 4;
   double split_px = 1;
   Unseen unseen = Unseen::scan_colour;
@@ -59,8 +60,12 @@ inline void describe(Binder& b, TextureOptions& o) {
       "surface up to this far outside the trusted pixels, or beside painted surface, gets colours grown from "
       "there; farther off it counts as unseen");
   b.number(
+      "pose_max_px", o.pose_max_px, {0, 1000},
+      "cameras are corrected until the model's outline lies on the photo's and several photos show the same "
+      "colours at the same places, by a shift of at most this much; 0: not at all");
+  b.number(
       "warp_max_px", o.warp_max_px, {0, 100},
-      "the model's outline is laid on the photo's by a smooth shift of at most this much; 0: not at all");
+      "what is left between the outlines is taken out by a smooth shift of at most this much; 0: not at all");
   b.number("split_px", o.split_px, {0.25, 1000},
            "triangles that a photo sees partly are split until their edges are this short in the photo");
   b.choice("unseen", o.unseen,
@@ -89,6 +94,7 @@ struct TextureView {
 struct ViewUse {
   int material = -1;           // of the model; -1 if nothing is painted from it, or on an atlas
   double painted_percent = 0;  // of the model's area
+  double pose_px = 0;          // how far the correction of its camera shifted the outline or the surface
   double warp_px = 0;          // the most that its outline was shifted by
   std::string reason;          // why nothing is painted from it; empty if something is
 };
