@@ -60,12 +60,17 @@ void every_loop(const std::string& name, const Settings& settings) {
     if (hole.why.empty() ||
         (hole.filled() && hole.faces_added == 0 && hole.why.find("inside") == std::string::npos))
       ++silent;
+  const auto filled = static_cast<std::size_t>(
+      std::count_if(result.holes.begin(), result.holes.end(), [](const auto& h) { return h.filled(); }));
   fmt::print(
-      "{}: {} raw loops in {} borders, {} after repair; {} filled, {} silent failures; {} open after; "
-      "{:.3f} CPU s\n  self-intersections {} -> {}, manifold {}, genus {}\n",
-      name, before.boundary_loops, before.borders, result.holes.size(),
-      std::count_if(result.holes.begin(), result.holes.end(), [](const auto& h) { return h.filled(); }),
-      silent, after.boundary_loops, seconds, crossings_before, after.self_intersections, after.manifold(),
+      "{}: {} raw loops in {} borders, {} after repair; {} filled, {} left by rule, {} silent failures; {} "
+      "open "
+      "after; {:.3f} CPU s\n  self-intersecting pairs {} before, {} after, {} with an added face; manifold "
+      "{}, "
+      "genus {}\n",
+      name, before.boundary_loops, before.borders, result.holes.size(), filled, result.holes.size() - filled,
+      silent, after.boundary_loops, seconds, crossings_before, after.self_intersections,
+      result.self_intersections, after.manifold() ? "yes" : "NO",
       after.genus ? std::to_string(*after.genus) : "none");
   for (const meshing::Hole& hole : result.holes)
     fmt::print("  {:5} edges, length {:8.1f}, area {:9.1f}, flatness {:6.2f} spacings: {:5} ({})\n",

@@ -1,7 +1,7 @@
 // How near the meshes of scans are to the truth (simulated scans of five shapes) and to the scans themselves
 // (the bunny, also without one of its scans), one row each.
-// Usage: meshing_quality [save=FOLDER] [noise=PERCENT] [shape=NAME] [real=no] [pcl=no] [option=value ...],
-// options as in the `mesh` section.
+// Usage: meshing_quality [save=FOLDER] [noise=PERCENT] [shape=NAME] [real=no] [pcl=no] [meshlab=no]
+// [option=value ...], options as in the `mesh` section.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
@@ -24,7 +24,7 @@
 #include "drape/metrics/surface_distance.hpp"
 #include "drape/report/turntable.hpp"
 #include "drape/simulation/range_scanner.hpp"
-#include "pcl_poisson_peer.hpp"
+#include "poisson_peers.hpp"
 #include "program_arguments.hpp"
 #include "range_sheet.hpp"
 #include "support.hpp"
@@ -39,6 +39,7 @@ struct Settings {
   std::vector<double> noise_percents = {0.05, 0.1, 0.2};
   bool real = true;
   bool pcl = true;
+  bool meshlab = true;
   meshing::MeshOptions mesh;
 };
 
@@ -236,6 +237,13 @@ void measure_shape(const Settings& settings, const std::string& file) {
                   meshing::trimmed_to_samples(peer->mesh, cloud, 3 * all.spacing).mesh, truth, seen, all);
       else
         fmt::print("  pcl Poisson {}: skipped, needs pcl-tools\n", depth);
+    if (!settings.meshlab) continue;
+    for (const int depth : {8, 9})
+      if (const auto peer = test::meshlab_poisson_mesh(cloud, depth))
+        print_row(fmt::format("  MeshLab Poisson {}, trimmed", depth),
+                  meshing::trimmed_to_samples(peer->mesh, cloud, 3 * all.spacing).mesh, truth, seen, all);
+      else
+        fmt::print("  MeshLab Poisson {}: skipped, needs meshlabserver and xvfb\n", depth);
   }
 }
 
@@ -307,6 +315,7 @@ Settings settings_of(test::ProgramArguments& arguments) {
     for (const std::string& percent : noise) settings.noise_percents.push_back(std::stod(percent));
   }
   settings.real = arguments.text("real").value_or("yes") != "no";
+  settings.meshlab = arguments.text("meshlab").value_or("yes") != "no";
   settings.pcl = arguments.text("pcl").value_or("yes") != "no";
   arguments.read(settings.mesh);
   arguments.finish();

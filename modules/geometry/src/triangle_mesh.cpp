@@ -6,16 +6,51 @@
 #include <algorithm>
 #include <limits>
 
+#include "drape/base/parallel.hpp"
+#include "drape/geometry/mesh_packing.hpp"
+
 namespace drape {
 namespace {
 
+// Values of which renamed[i] is not `unused` move there, which is never behind their own place.
+constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+
 template <class Attribute>
-void take(std::vector<Attribute>& values, const std::vector<std::size_t>& chosen) {
+void take(std::vector<Attribute>& values, const std::vector<std::uint32_t>& renamed) {
   if (values.empty()) return;
-  std::vector<Attribute> kept;
-  kept.reserve(chosen.size());
-  for (const std::size_t i : chosen) kept.push_back(values[i]);
-  values = std::move(kept);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < renamed.size(); ++i)
+    if (renamed[i] != unused) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+template <class Attribute>
+void take_faces(std::vector<Attribute>& values, const std::vector<std::uint8_t>& keep) {
+  if (values.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i)
+    if (keep[i]) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+// The least and the greatest vertex of consecutive faces, which in most meshes lie near each other.
+struct FaceRun {
+  static constexpr std::size_t faces = 65536;
+  std::uint32_t first_vertex = unused;
+  std::uint32_t last_vertex = 0;
+};
+
+std::vector<FaceRun> face_runs(const TriangleMesh& mesh) {
+  std::vector<FaceRun> runs((mesh.faces.size() + FaceRun::faces - 1) / FaceRun::faces);
+  parallel_for(mesh.faces.size(), FaceRun::faces, [&](std::size_t begin, std::size_t end) {
+    FaceRun& run = runs[begin / FaceRun::faces];
+    for (std::size_t i = begin; i < end; ++i)
+      for (const std::uint32_t v : mesh.faces[i]) {
+        run.first_vertex = std::min(run.first_vertex, v);
+        run.last_vertex = std::max(run.last_vertex, v);
+      }
+  });
+  return runs;
 }
 
 }  // namespace
@@ -27,14 +62,26 @@ Eigen::Vector3d scaled_face_normal(const TriangleMesh& mesh, std::size_t face) {
 }
 
 std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh) {
-  std::vector<Eigen::Vector3d> sums(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const Eigen::Vector3d normal = scaled_face_normal(mesh, i);
-    for (const std::uint32_t v : mesh.faces[i]) sums[v] += normal;
-  }
-  std::vector<Eigen::Vector3f> normals;
-  normals.reserve(sums.size());
-  for (const Eigen::Vector3d& sum : sums) normals.push_back(sum.stableNormalized().cast<float>());
+  const std::vector<FaceRun> runs = face_runs(mesh);
+  std::vector<Eigen::Vector3f> normals(mesh.vertices.size());
+  // A range of vertices at a time: the sums of all would take as much memory as the vertices.
+  constexpr std::size_t vertices_at_a_time = 1U << 20;
+  parallel_for(normals.size(), vertices_at_a_time, [&](std::size_t first, std::size_t end) {
+    std::vector<Eigen::Vector3d> sums(end - first, Eigen::Vector3d::Zero());
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      if (runs[r].last_vertex < first || runs[r].first_vertex >= end) continue;
+      const std::size_t end_face = std::min(mesh.faces.size(), (r + 1) * FaceRun::faces);
+      for (std::size_t i = r * FaceRun::faces; i < end_face; ++i) {
+        const Face& f = mesh.faces[i];
+        if (std::none_of(f.begin(), f.end(), [&](std::uint32_t v) { return v >= first && v < end; }))
+          continue;
+        const Eigen::Vector3d normal = scaled_face_normal(mesh, i);
+        for (const std::uint32_t v : f)
+          if (v >= first && v < end) sums[v - first] += normal;
+      }
+    }
+    for (std::size_t v = first; v < end; ++v) normals[v] = sums[v - first].stableNormalized().cast<float>();
+  });
   return normals;
 }
 
@@ -67,38 +114,35 @@ double median_edge_length(const TriangleMesh& mesh) {
   return *middle;
 }
 
-TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
-  constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+void drop_unused_vertices(TriangleMesh& mesh) {
   std::vector<std::uint32_t> renamed(mesh.vertices.size(), unused);
   for (const Face& f : mesh.faces)
     for (const std::uint32_t v : f) renamed[v] = 0;
-  std::vector<std::size_t> chosen;
-  for (std::size_t v = 0; v < renamed.size(); ++v)
-    if (renamed[v] != unused) {
-      renamed[v] = static_cast<std::uint32_t>(chosen.size());
-      chosen.push_back(v);
-    }
-  TriangleMesh kept = mesh;
-  take(kept.vertices, chosen);
-  take(kept.normals, chosen);
-  take(kept.colors, chosen);
-  take(kept.intensities, chosen);
-  take(kept.confidences, chosen);
-  for (Face& f : kept.faces)
+  std::uint32_t kept = 0;
+  for (std::uint32_t& name : renamed)
+    if (name != unused) name = kept++;
+  if (kept == renamed.size()) return;
+  take(mesh.vertices, renamed);
+  take(mesh.normals, renamed);
+  take(mesh.colors, renamed);
+  take(mesh.intensities, renamed);
+  take(mesh.confidences, renamed);
+  for (Face& f : mesh.faces)
     for (std::uint32_t& v : f) v = renamed[v];
-  if (chosen.empty()) kept.vertices.clear();
+}
+
+TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
+  TriangleMesh kept = mesh;
+  drop_unused_vertices(kept);
   return kept;
 }
 
 TriangleMesh with_faces(const TriangleMesh& mesh, const std::vector<std::uint8_t>& keep) {
   TriangleMesh kept = mesh;
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
-    if (keep[i]) chosen.push_back(i);
-  take(kept.faces, chosen);
-  take(kept.filled, chosen);
-  if (chosen.empty()) kept.faces.clear();
-  return without_unused_vertices(kept);
+  take_faces(kept.faces, keep);
+  take_faces(kept.filled, keep);
+  drop_unused_vertices(kept);
+  return kept;
 }
 
 std::string problem_of(const TriangleMesh& mesh) {

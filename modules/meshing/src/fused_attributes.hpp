@@ -10,9 +10,21 @@
 
 namespace drape::meshing {
 
-/// Colours, intensities and confidences of the surface's vertices, where all scans have them: the mean of
-/// what the scans that see the vertex have there, by their weight in its distance.
-void fuse_attributes(FieldSurface& surface, const FusionBlocks& blocks, std::span<const DepthMap> maps,
-                     std::span<const RangeScan> scans);
+/// What all scans have.
+struct CommonAttributes {
+  bool colors = true;
+  bool intensities = true;
+  bool confidences = true;
+
+  [[nodiscard]] bool any() const { return colors || intensities || confidences; }
+};
+
+[[nodiscard]] CommonAttributes common_attributes(std::span<const DepthMap> maps,
+                                                 std::span<const RangeScan> scans);
+
+/// Those attributes for the vertices of a part: the mean of what the scans that see the vertex have there, by
+/// their weight in its distance.
+void fuse_attributes(SurfacePart& part, const CommonAttributes& common, const FusionBlocks& blocks,
+                     std::span<const DepthMap> maps, std::span<const RangeScan> scans);
 
 }  // namespace drape::meshing

@@ -121,19 +121,21 @@ void shield_opposite_sides(std::span<Sighting> sightings, std::span<const BlockS
     if ((shielded >> i) & 1) sightings[i].weight = 0;
 }
 
-FusedField fused_field(const FusionBlocks& blocks, std::span<const DepthMap> maps, const Progress& progress) {
-  FusedField field;
-  field.distances.resize(blocks.size() * VoxelLattice::block_voxels);
-  constexpr std::size_t blocks_per_round = 32768;
-  for (std::size_t begin = 0; begin < blocks.size(); begin += blocks_per_round) {
-    progress.update(static_cast<double>(begin) / static_cast<double>(blocks.size()), "fusing the scans");
-    const std::size_t count = std::min(blocks_per_round, blocks.size() - begin);
-    parallel_for(count, 64, [&](std::size_t from, std::size_t to) {
-      for (std::size_t b = begin + from; b < begin + to; ++b)
-        fuse_block(sights_on(blocks, b, maps), &field.distances[b * VoxelLattice::block_voxels]);
-    });
-  }
-  return field;
+void FusedField::forget_before(std::size_t block) {
+  const auto gone = static_cast<std::ptrdiff_t>((block - first_block) * VoxelLattice::block_voxels);
+  distances.erase(distances.begin(), distances.begin() + gone);
+  first_block = block;
+}
+
+void fuse_blocks(FusedField& field, const FusionBlocks& blocks, std::span<const DepthMap> maps,
+                 std::size_t end) {
+  const std::size_t begin = field.end_block();
+  field.distances.resize((end - field.first_block) * VoxelLattice::block_voxels);
+  parallel_for(end - begin, 64, [&](std::size_t from, std::size_t to) {
+    for (std::size_t b = begin + from; b < begin + to; ++b)
+      fuse_block(sights_on(blocks, b, maps),
+                 &field.distances[(b - field.first_block) * VoxelLattice::block_voxels]);
+  });
 }
 
 }  // namespace drape::meshing

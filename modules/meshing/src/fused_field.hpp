@@ -20,11 +20,17 @@ struct FusedField {
   static constexpr bool is_guess(std::int16_t distance) { return (distance & 1) != 0; }
   static constexpr double step_voxels = truncation_voxels / farthest;
 
+  std::size_t first_block = 0;          // the blocks before are not (or no longer) there
   std::vector<std::int16_t> distances;  // block_voxels for each block
 
-  [[nodiscard]] std::span<const std::int16_t> of_block(std::size_t block) const {
-    return {distances.data() + block * VoxelLattice::block_voxels, VoxelLattice::block_voxels};
+  [[nodiscard]] std::size_t end_block() const {
+    return first_block + distances.size() / VoxelLattice::block_voxels;
   }
+  [[nodiscard]] std::span<const std::int16_t> of_block(std::size_t block) const {
+    return {distances.data() + (block - first_block) * VoxelLattice::block_voxels,
+            VoxelLattice::block_voxels};
+  }
+  void forget_before(std::size_t block);
 };
 
 /// Curless and Levoy 1996: per voxel the weighted mean of its distances from the scans' surfaces. Each is the
@@ -33,8 +39,9 @@ struct FusedField {
 /// a surface. What lies behind one surface but nearer to another of the opposite normal is no evidence
 /// against that one: the two sides of a thin sheet do not cancel. Nor is it evidence, with less weight, where
 /// another scan saw through: beside an edge a steep surface's rear reaches out of the object.
-[[nodiscard]] FusedField fused_field(const FusionBlocks& blocks, std::span<const DepthMap> maps,
-                                     const Progress& progress);
+/// The blocks from the field's end to `end` are added to it.
+void fuse_blocks(FusedField& field, const FusionBlocks& blocks, std::span<const DepthMap> maps,
+                 std::size_t end);
 
 /// The part that a depth map has in a voxel's value.
 struct Sighting {

@@ -14,27 +14,6 @@ namespace {
 constexpr int side = VoxelLattice::block;
 constexpr std::size_t blocks_per_chunk = 256;
 
-// Which of a block's own edges (from a voxel towards +x, +y or +z) the surface cuts: bit x of byte y of word
-// z, for each axis. The cut edges are numbered in that order.
-struct CutEdges {
-  std::array<std::array<std::uint64_t, side>, 3> cut{};
-  std::array<std::array<std::uint16_t, side>, 3> before{};  // cut edges ahead of each word
-  std::uint16_t count = 0;
-
-  void number() {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t z = 0; z < side; ++z) {
-        before[axis][z] = count;
-        count = static_cast<std::uint16_t>(count + std::popcount(cut[axis][z]));
-      }
-  }
-  [[nodiscard]] std::uint32_t rank(std::size_t axis, int x, int y, int z) const {
-    const std::uint64_t ahead = (std::uint64_t{1} << (8 * y + x)) - 1;
-    return before[axis][static_cast<std::size_t>(z)] +
-           static_cast<std::uint32_t>(std::popcount(cut[axis][static_cast<std::size_t>(z)] & ahead));
-  }
-};
-
 // A block's values with the first ones of its upper neighbours, and what they say as bits: bit x of a row.
 class CubeCorners {
  public:
@@ -129,94 +108,141 @@ class CubeCorners {
   std::array<std::uint16_t, (side + 1) * (side + 1)> outside_seen_{};
 };
 
-// How many vertices and faces the blocks before each block have.
-struct Numbering {
-  std::vector<CutEdges> edges;
-  std::vector<std::uint32_t> first_vertex;
-  std::vector<std::uint32_t> first_face;
-};
-
-Numbering number_all(const FusionBlocks& blocks, const FusedField& field) {
-  Numbering numbers;
-  numbers.edges.resize(blocks.size());
-  numbers.first_vertex.assign(blocks.size() + 1, 0);
-  numbers.first_face.assign(blocks.size() + 1, 0);
-  parallel_for(blocks.size(), blocks_per_chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const CubeCorners corners(blocks, field, b);
-      numbers.edges[b] = corners.cut_edges();
-      numbers.first_vertex[b + 1] = numbers.edges[b].count;
-      corners.for_each_cube([&](int, int, int, int inside) {
-        numbers.first_face[b + 1] +=
-            static_cast<std::uint32_t>(cube_cases()[static_cast<std::size_t>(inside)].triangles);
-      });
-    }
-  });
-  std::uint64_t vertices = 0;
-  std::uint64_t faces = 0;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    numbers.first_vertex[b + 1] = static_cast<std::uint32_t>(vertices += numbers.first_vertex[b + 1]);
-    numbers.first_face[b + 1] = static_cast<std::uint32_t>(faces += numbers.first_face[b + 1]);
-  }
-  if (vertices > 0xffffffffU || faces > 0xffffffffU)
-    throw input_error("the mesh would have {} faces, more than can be numbered: make the voxels larger",
-                      faces);
-  return numbers;
-}
-
-void place_vertices(const FusionBlocks& blocks, const CubeCorners& corners, std::size_t block,
-                    const CutEdges& edges, Eigen::Vector3d* vertex) {
-  const Eigen::Vector3d corner = blocks.corner(block).cast<double>();
+void place_vertices(const CubeCorners& corners, const CutEdges& edges, Eigen::Vector3f* vertex) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (int z = 0; z < side; ++z)
       for (std::uint64_t cut = edges.cut[axis][static_cast<std::size_t>(z)]; cut != 0; cut &= cut - 1) {
         const int place = std::countr_zero(cut);
         const int x = place % side;
         const int y = place / side;
-        const double from = corners.value(x, y, z);
-        const double to = corners.value(x + (axis == 0), y + (axis == 1), z + (axis == 2));
-        Eigen::Vector3d at(x, y, z);
+        const auto from = static_cast<float>(corners.value(x, y, z));
+        const auto to = static_cast<float>(corners.value(x + (axis == 0), y + (axis == 1), z + (axis == 2)));
+        Eigen::Vector3f at = Eigen::Vector3i(x, y, z).cast<float>();
         // Away from the ends, where the triangles of several edges would shrink to nothing.
-        at[static_cast<Eigen::Index>(axis)] += std::clamp(from / (from - to), 0.02, 0.98);
-        *vertex++ = blocks.lattice.position(corner + at);
+        at[static_cast<Eigen::Index>(axis)] += std::clamp(from / (from - to), 0.02F, 0.98F);
+        *vertex++ = at;
       }
 }
 
-void place_faces(const CubeCorners& corners, const Numbering& numbers, Face* face) {
-  corners.for_each_cube([&](int x, int y, int z, int inside) {
-    const CubeCase& cube = cube_cases()[static_cast<std::size_t>(inside)];
-    for (int t = 0; t < cube.triangles; ++t, ++face)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int edge = cube.edges[static_cast<std::size_t>(t)][k];
-        const int corner = edge_corner(edge);
-        const int ex = x + (corner & 1);
-        const int ey = y + ((corner >> 1) & 1);
-        const int ez = z + (corner >> 2);
-        const std::uint32_t owner = corners.neighbor((ex / side) | (ey / side) << 1 | (ez / side) << 2);
-        (*face)[k] =
-            numbers.first_vertex[owner] +
-            numbers.edges[owner].rank(static_cast<std::size_t>(edge / 4), ex % side, ey % side, ez % side);
-      }
-  });
+template <class Attribute>
+void append(std::vector<Attribute>& to, std::vector<Attribute>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+  from = {};
 }
 
 }  // namespace
 
-FieldSurface field_surface(const FusionBlocks& blocks, const FusedField& field) {
-  Numbering numbers = number_all(blocks, field);
-  FieldSurface surface;
-  surface.mesh.vertices.resize(numbers.first_vertex.back());
-  surface.mesh.faces.resize(numbers.first_face.back());
-  parallel_for(blocks.size(), blocks_per_chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const CubeCorners corners(blocks, field, b);
-      place_vertices(blocks, corners, b, numbers.edges[b],
-                     surface.mesh.vertices.data() + numbers.first_vertex[b]);
-      place_faces(corners, numbers, surface.mesh.faces.data() + numbers.first_face[b]);
+void CutEdges::number() {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t z = 0; z < side; ++z) {
+      before[axis][z] = count;
+      count = static_cast<std::uint16_t>(count + std::popcount(cut[axis][z]));
+    }
+}
+
+std::uint32_t CutEdges::rank(std::size_t axis, int x, int y, int z) const {
+  const std::uint64_t ahead = (std::uint64_t{1} << (8 * y + x)) - 1;
+  return before[axis][static_cast<std::size_t>(z)] +
+         static_cast<std::uint32_t>(std::popcount(cut[axis][static_cast<std::size_t>(z)] & ahead));
+}
+
+void MarchingCubes::number(const FusedField& field, std::size_t end) {
+  const std::size_t known = edges_.size();
+  edges_.resize(end - first_block_);
+  face_counts_.resize(edges_.size(), 0);
+  parallel_for(edges_.size() - known, blocks_per_chunk, [&](std::size_t begin, std::size_t chunk_end) {
+    for (std::size_t k = known + begin; k < known + chunk_end; ++k) {
+      const CubeCorners corners(blocks_, field, first_block_ + k);
+      edges_[k] = corners.cut_edges();
+      corners.for_each_cube([&](int, int, int, int inside) {
+        face_counts_[k] +=
+            static_cast<std::uint32_t>(cube_cases()[static_cast<std::size_t>(inside)].triangles);
+      });
     }
   });
-  surface.first_vertex = std::move(numbers.first_vertex);
-  return surface;
+  std::uint64_t vertices = first_vertex_.back();
+  for (std::size_t k = known; k < edges_.size(); ++k) {
+    first_vertex_.push_back(static_cast<std::uint32_t>(vertices += edges_[k].count));
+    faces_ += face_counts_[k];
+  }
+  if (vertices > 0xffffffffU || faces_ > 0xffffffffU)
+    throw input_error(
+        "the mesh would have more than {} faces, more than can be numbered: make the voxels larger",
+        0xffffffffU);
+}
+
+SurfacePart MarchingCubes::part(const FusedField& field, std::size_t end) {
+  const std::size_t count = end - first_block_;
+  SurfacePart part;
+  part.first_block = first_block_;
+  part.first_vertex.assign(first_vertex_.begin(),
+                           first_vertex_.begin() + static_cast<std::ptrdiff_t>(count) + 1);
+  std::vector<std::size_t> first_face(count + 1, 0);
+  for (std::size_t k = 0; k < count; ++k) first_face[k + 1] = first_face[k] + face_counts_[k];
+  part.places.resize(part.first_vertex.back() - part.first_vertex.front());
+  part.faces.resize(first_face.back());
+  parallel_for(count, blocks_per_chunk, [&](std::size_t begin, std::size_t chunk_end) {
+    for (std::size_t k = begin; k < chunk_end; ++k) {
+      if (edges_[k].count == 0 && face_counts_[k] == 0) continue;
+      const CubeCorners corners(blocks_, field, first_block_ + k);
+      place_vertices(corners, edges_[k], part.places.data() + first_vertex_[k] - first_vertex_[0]);
+      Face* face = part.faces.data() + first_face[k];
+      corners.for_each_cube([&](int x, int y, int z, int inside) {
+        const CubeCase& cube = cube_cases()[static_cast<std::size_t>(inside)];
+        for (int t = 0; t < cube.triangles; ++t, ++face)
+          for (std::size_t c = 0; c < 3; ++c) {
+            const int edge = cube.edges[static_cast<std::size_t>(t)][c];
+            const int corner = edge_corner(edge);
+            const int ex = x + (corner & 1);
+            const int ey = y + ((corner >> 1) & 1);
+            const int ez = z + (corner >> 2);
+            const std::size_t owner =
+                corners.neighbor((ex / side) | (ey / side) << 1 | (ez / side) << 2) - first_block_;
+            (*face)[c] = first_vertex_[owner] + edges_[owner].rank(static_cast<std::size_t>(edge / 4),
+                                                                   ex % side, ey % side, ez % side);
+          }
+      });
+    }
+  });
+  const auto gone = static_cast<std::ptrdiff_t>(count);
+  edges_.erase(edges_.begin(), edges_.begin() + gone);
+  face_counts_.erase(face_counts_.begin(), face_counts_.begin() + gone);
+  first_vertex_.erase(first_vertex_.begin(), first_vertex_.begin() + gone);
+  first_block_ = end;
+  return part;
+}
+
+TriangleMesh joined(std::vector<SurfacePart> parts, const FusionBlocks& blocks) {
+  TriangleMesh mesh;
+  std::size_t faces = 0;
+  for (const SurfacePart& part : parts) faces += part.faces.size();
+  const std::size_t vertices = parts.empty() ? 0 : parts.back().first_vertex.back();
+  mesh.vertices.resize(vertices);
+  mesh.faces.reserve(faces);
+  const auto expect = [&](auto& attribute, const auto& first) {
+    attribute.reserve(first.empty() ? 0 : vertices);
+  };
+  if (!parts.empty()) {
+    expect(mesh.colors, parts.front().colors);
+    expect(mesh.intensities, parts.front().intensities);
+    expect(mesh.confidences, parts.front().confidences);
+  }
+  for (SurfacePart& part : parts) {
+    parallel_for(part.first_vertex.size() - 1, blocks_per_chunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const Eigen::Vector3d corner = blocks.corner(part.first_block + k).cast<double>();
+        for (std::uint32_t v = part.first_vertex[k]; v < part.first_vertex[k + 1]; ++v)
+          mesh.vertices[v] =
+              blocks.lattice.position(corner + part.places[v - part.first_vertex.front()].cast<double>());
+      }
+    });
+    append(mesh.faces, part.faces);
+    append(mesh.colors, part.colors);
+    append(mesh.intensities, part.intensities);
+    append(mesh.confidences, part.confidences);
+    part = {};
+  }
+  return mesh;
 }
 
 }  // namespace drape::meshing

@@ -12,6 +12,7 @@
 #include "drape/base/parallel.hpp"
 #include "drape/geometry/kd_tree.hpp"
 #include "drape/geometry/mesh_topology.hpp"
+#include "drape/meshing/mesh_quality.hpp"
 #include "edge_repair.hpp"
 #include "grid_delaunay.hpp"
 #include "orientation.hpp"
@@ -19,6 +20,7 @@
 #include "poisson.hpp"
 #include "range_fusion.hpp"
 #include "scale_space.hpp"
+#include "spot_mending.hpp"
 #include "trimming.hpp"
 #include "vertex_fans.hpp"
 
@@ -121,8 +123,11 @@ TriangleMesh with_positive_volume(const TriangleMesh& mesh) {
   return turned;
 }
 
-// What every method's raw faces go through.
-void clean(const MeshOptions& options, MeshResult& result) {
+// Whether the faces are of one surface, which must not cross itself.
+enum class Sheets { one, several };
+
+// What every method's raw faces go through (those of fusion do within it).
+void clean(const MeshOptions& options, Sheets sheets, MeshResult& result) {
   Cleaned cleaned = without_bad_faces(result.mesh);
   cleaned = with_manifold_edges(cleaned.mesh);
   result.non_manifold_repaired += cleaned.removed;
@@ -131,6 +136,14 @@ void clean(const MeshOptions& options, MeshResult& result) {
   cleaned = without_small_components(cleaned.mesh, options.min_component_percent);
   result.components_removed = cleaned.removed;
   result.mesh = std::move(cleaned.mesh);
+  if (sheets == Sheets::several) {
+    result.self_intersections = self_intersecting_pairs(result.mesh).size();
+    return;
+  }
+  Uncrossed uncrossed = with_crossings_mended(result.mesh);
+  result.self_intersections_repaired = uncrossed.found - uncrossed.left;
+  result.self_intersections = uncrossed.left;
+  result.mesh = std::move(uncrossed.mesh);
 }
 
 MeshResult mesh_merged_cloud(const MeshInput& input, Method method, const MeshOptions& options,
@@ -172,7 +185,7 @@ MeshResult mesh_merged_cloud(const MeshInput& input, Method method, const MeshOp
   result.faces_trimmed = trimmed.removed;
   result.mesh = std::move(trimmed.mesh);
   result.mesh = oriented_by_votes(result.mesh, normal_votes(result.mesh, samples, tree));
-  clean(options, result);
+  clean(options, Sheets::one, result);
   if (samples.normals.empty() || !any_view_known(input)) result.mesh = with_positive_volume(result.mesh);
   take_attributes(result.mesh, samples, tree);
   return result;
@@ -222,14 +235,17 @@ MeshResult mesh_grids(const MeshInput& input, const MeshOptions& options, const 
   drop_if_partial(result.mesh.colors, result.mesh);
   drop_if_partial(result.mesh.intensities, result.mesh);
   drop_if_partial(result.mesh.confidences, result.mesh);
-  clean(options, result);
+  clean(options, grids == 1 ? Sheets::one : Sheets::several, result);
   return result;
+}
+
+bool all_can_be_fused(std::span<const RangeScan> scans) {
+  return !scans.empty() && std::all_of(scans.begin(), scans.end(), can_be_fused);
 }
 
 Method chosen_method(const MeshInput& input, Method asked) {
   if (asked != Method::automatic) return asked;
-  if (!input.scans.empty() && std::all_of(input.scans.begin(), input.scans.end(), can_be_fused))
-    return Method::fusion;
+  if (all_can_be_fused(input.scans)) return Method::fusion;
   return input.cloud.normals.empty() ? Method::advancing_front : Method::poisson;
 }
 
@@ -280,6 +296,11 @@ std::string_view why_empty(Method method) {
 }
 
 }  // namespace
+
+bool needs_cloud(std::span<const RangeScan> scans, Method method) {
+  if (method == Method::automatic) return !all_can_be_fused(scans);
+  return method != Method::fusion && method != Method::grid;
+}
 
 MeshResult mesh_scans(const MeshInput& input, const MeshOptions& options, const Progress& progress) {
   check(input);

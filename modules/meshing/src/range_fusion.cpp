@@ -7,6 +7,7 @@
 #include "drape/base/log.hpp"
 #include "drape/base/parallel.hpp"
 #include "drape/geometry/kd_tree.hpp"
+#include "drape/geometry/mesh_packing.hpp"
 #include "field_cleaning.hpp"
 #include "fused_attributes.hpp"
 #include "fused_field.hpp"
@@ -42,14 +43,25 @@ SeenScan seen_scan(const RangeScan& scan, const Rigid3& world_from_scan, const F
   return seen;
 }
 
-// A few scans at a time, so that not all of the intermediate sheets are there at once.
+// The scans after `begin` that are worked on at once: not so many that their intermediate sheets, some 150
+// bytes a sample, take more memory than what is kept of them all.
+std::size_t end_of_round(std::span<const RangeScan> scans, std::size_t begin) {
+  constexpr std::size_t most_scans = 8;
+  constexpr std::size_t most_samples = 1'000'000;
+  std::size_t samples = scans[begin].cloud.size();
+  std::size_t end = begin + 1;
+  while (end < scans.size() && end < begin + most_scans &&
+         (samples += scans[end].cloud.size()) <= most_samples)
+    ++end;
+  return end;
+}
+
 SeenScan all_seen(std::span<const RangeScan> scans, std::span<const Rigid3> world_from_scan,
                   const FusionSizes& sizes, const Progress& progress) {
-  constexpr std::size_t at_a_time = 8;
   SeenScan all;
-  for (std::size_t begin = 0; begin < scans.size(); begin += at_a_time) {
+  for (std::size_t begin = 0; begin < scans.size();) {
     progress.update(static_cast<double>(begin) / static_cast<double>(scans.size()), "denoising the scans");
-    std::vector<SeenScan> seen(std::min(at_a_time, scans.size() - begin));
+    std::vector<SeenScan> seen(end_of_round(scans, begin) - begin);
     parallel_for(seen.size(), 1, [&](std::size_t i, std::size_t) {
       seen[i] = seen_scan(scans[begin + i], world_from_scan[begin + i], sizes);
     });
@@ -63,16 +75,64 @@ SeenScan all_seen(std::span<const RangeScan> scans, std::span<const Rigid3> worl
         all.maps.push_back(std::move(map));
       }
     }
+    begin += seen.size();
   }
   return all;
 }
 
-void clean(FieldSurface& surface, double min_component_percent, Fused& fused) {
-  Cleaned cleaned = without_touching_border_fans(std::move(surface.mesh));
+// Ends of groups of whole layers of blocks, each of a few thousand at least. What touches a group from above
+// lies in the next.
+std::vector<std::size_t> group_ends(const FusionBlocks& blocks) {
+  constexpr std::size_t least_blocks = 4096;
+  std::vector<std::size_t> ends;
+  std::size_t begin = 0;
+  for (std::size_t b = 1; b < blocks.size(); ++b)
+    if (b - begin >= least_blocks && blocks.corner(b).z() != blocks.corner(b - 1).z()) {
+      ends.push_back(b);
+      begin = b;
+    }
+  ends.push_back(blocks.size());
+  return ends;
+}
+
+// Of the whole mesh only three groups of blocks are there as voxels at a time: the one that becomes faces,
+// the one above that its uppermost cubes touch, and the one that those touch.
+std::vector<SurfacePart> open_surface(const FusionBlocks& blocks, std::span<const DepthMap> maps,
+                                      std::span<const RangeScan> scans, const Progress& progress) {
+  const std::vector<std::size_t> ends = group_ends(blocks);
+  const CommonAttributes common = common_attributes(maps, scans);
+  const auto end_of = [&](std::size_t group) { return ends[std::min(group, ends.size() - 1)]; };
+  FusedField field;
+  MarchingCubes cubes(blocks);
+  std::vector<SurfacePart> parts;
+  fuse_blocks(field, blocks, maps, end_of(1));
+  cubes.number(field, end_of(0));
+  for (std::size_t group = 0; group < ends.size(); ++group) {
+    progress.update(static_cast<double>(group) / static_cast<double>(ends.size()), "fusing the scans");
+    fuse_blocks(field, blocks, maps, end_of(group + 2));
+    cubes.number(field, end_of(group + 1));
+    parts.push_back(cubes.part(field, end_of(group)));
+    fuse_attributes(parts.back(), common, blocks, maps, scans);
+    field.forget_before(end_of(group));
+  }
+  return parts;
+}
+
+std::vector<SurfacePart> whole_surface(const FusionBlocks& blocks, const FusedField& field) {
+  MarchingCubes cubes(blocks);
+  cubes.number(field, blocks.size());
+  std::vector<SurfacePart> parts;
+  parts.push_back(cubes.part(field, blocks.size()));
+  return parts;
+}
+
+TriangleMesh cleaned(TriangleMesh mesh, double min_component_percent, Fused& fused) {
+  Cleaned cleaned = without_touching_border_fans(std::move(mesh));
   fused.touching_vertices = cleaned.removed;
   cleaned = without_small_pieces(std::move(cleaned.mesh), min_component_percent);
   fused.pieces_removed = cleaned.removed;
-  surface.mesh = std::move(cleaned.mesh);
+  drop_unused_vertices(cleaned.mesh);
+  return std::move(cleaned.mesh);
 }
 
 // Faces that no vertex of the open surface is near.
@@ -96,26 +156,23 @@ bool can_be_fused(const RangeScan& scan) {
 
 Fused fused_mesh(std::span<const RangeScan> scans, std::span<const Rigid3> world_from_scan,
                  const FusionSizes& sizes, const Progress& progress) {
-  const SeenScan seen = all_seen(scans, world_from_scan, sizes, progress.part(0, 0.4));
+  SeenScan seen = all_seen(scans, world_from_scan, sizes, progress.part(0, 0.4));
   const FusionBlocks blocks = blocks_round(seen.maps, sizes.voxel, FusedField::truncation_voxels);
-  const FusedField field = fused_field(blocks, seen.maps, progress.part(0.4, 0.8));
-  progress.update(0.8, "marching cubes");
   Fused fused;
   fused.samples = seen.samples;
-  FieldSurface surface = field_surface(blocks, field);
-  clean(surface, sizes.min_component_percent, fused);
-  if (!sizes.closed || surface.mesh.empty()) {
-    progress.update(0.9, "fusing colours");
-    fuse_attributes(surface, blocks, seen.maps, scans);
-    fused.mesh = without_unused_vertices(surface.mesh);
-    return fused;
-  }
-  const TriangleMesh open = without_unused_vertices(surface.mesh);
-  const CarvedSpace carved = carved_space(blocks, field, seen.maps, open, progress.part(0.8, 0.95));
-  surface = field_surface(carved.blocks, carved.field);
-  clean(surface, sizes.min_component_percent, fused);
-  fuse_attributes(surface, carved.blocks, seen.maps, scans);
-  fused.mesh = without_unused_vertices(surface.mesh);
+  std::vector<SurfacePart> parts =
+      open_surface(blocks, seen.maps, scans, progress.part(0.4, sizes.closed ? 0.6 : 0.9));
+  if (!sizes.closed) seen.maps = {};
+  fused.mesh = cleaned(joined(std::move(parts), blocks), sizes.min_component_percent, fused);
+  if (!sizes.closed || fused.mesh.empty()) return fused;
+
+  const TriangleMesh open = std::move(fused.mesh);
+  FusedField field;
+  fuse_blocks(field, blocks, seen.maps, blocks.size());
+  const CarvedSpace carved = carved_space(blocks, field, seen.maps, open, progress.part(0.7, 0.95));
+  parts = whole_surface(carved.blocks, carved.field);
+  fuse_attributes(parts.front(), common_attributes(seen.maps, scans), carved.blocks, seen.maps, scans);
+  fused.mesh = cleaned(joined(std::move(parts), carved.blocks), sizes.min_component_percent, fused);
   mark_carved_faces(fused.mesh, open, sizes.voxel);
   return fused;
 }

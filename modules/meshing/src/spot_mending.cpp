@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "cleaning.hpp"
 #include "drape/geometry/mesh_topology.hpp"
+#include "drape/meshing/mesh_quality.hpp"
 #include "patching.hpp"
 #include "vertex_fans.hpp"
 
@@ -68,6 +70,24 @@ std::vector<LoopToFill> cut_loops(const TriangleMesh& mesh, const TriangleMesh& 
   return loops;
 }
 
+// The faces of the pairs, and `rings` of faces round them.
+std::vector<std::uint8_t> round_pairs(const TriangleMesh& mesh, const std::vector<FacePair>& pairs,
+                                      int rings) {
+  std::vector<std::uint8_t> marked(mesh.faces.size(), 0);
+  for (const auto& [a, b] : pairs) marked[a] = marked[b] = 1;
+  for (int ring = 0; ring < rings; ++ring) {
+    std::vector<std::uint8_t> touched(mesh.vertices.size(), 0);
+    for (std::size_t i = 0; i < marked.size(); ++i)
+      if (marked[i] != 0)
+        for (const std::uint32_t v : mesh.faces[i]) touched[v] = 1;
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+      const Face& f = mesh.faces[i];
+      if (touched[f[0]] != 0 || touched[f[1]] != 0 || touched[f[2]] != 0) marked[i] = 1;
+    }
+  }
+  return marked;
+}
+
 }  // namespace
 
 TriangleMesh with_spots_mended(const TriangleMesh& mesh) {
@@ -83,6 +103,25 @@ TriangleMesh with_spots_mended(const TriangleMesh& mesh) {
                                  : with_patches(cut, cut_loops(mended, cut, wrong), nullptr, Progress()).mesh;
   }
   return without_unused_vertices(with_parted_fans(mended).mesh);
+}
+
+Uncrossed with_crossings_mended(const TriangleMesh& mesh) {
+  std::vector<FacePair> pairs = self_intersecting_pairs(mesh);
+  Uncrossed result{mesh, pairs.size(), pairs.size()};
+  constexpr int rounds = 3;  // each cuts a ring more round what is left
+  for (int round = 0; round < rounds && !pairs.empty(); ++round) {
+    const std::vector<std::uint8_t> marked = round_pairs(result.mesh, pairs, round + 1);
+    const TriangleMesh cut = without_marked(result.mesh, marked);
+    TriangleMesh mended = with_patches(cut, cut_loops(result.mesh, cut, marked), nullptr, Progress()).mesh;
+    mended.filled.clear();
+    mended = without_touching_fans(mended).mesh;
+    std::vector<FacePair> left = self_intersecting_pairs(mended);
+    if (left.size() >= pairs.size()) continue;
+    pairs = std::move(left);
+    result.mesh = without_unused_vertices(mended);
+    result.left = pairs.size();
+  }
+  return result;
 }
 
 }  // namespace drape::meshing

@@ -1,6 +1,8 @@
 // Cutting out what makes a mesh no surface, and closing the cuts.
 #pragma once
 
+#include <cstddef>
+
 #include "drape/geometry/triangle_mesh.hpp"
 
 namespace drape::meshing {
@@ -10,5 +12,15 @@ namespace drape::meshing {
 /// get plain patches; what still touches in a point is parted. Borders that were there stay open. Unused
 /// vertices go.
 [[nodiscard]] TriangleMesh with_spots_mended(const TriangleMesh& mesh);
+
+struct Uncrossed {
+  TriangleMesh mesh;
+  std::size_t found = 0;  // pairs of faces that crossed
+  std::size_t left = 0;   // that could not be mended: the surface runs through itself there
+};
+
+/// Where faces cross, they and a ring of faces round them are cut out, and what that opens gets plain
+/// patches; up to three rings. `mesh` is manifold, and so is the outcome. Borders that were there stay open.
+[[nodiscard]] Uncrossed with_crossings_mended(const TriangleMesh& mesh);
 
 }  // namespace drape::meshing

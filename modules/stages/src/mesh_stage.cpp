@@ -9,7 +9,10 @@ namespace {
 
 void run(const meshing::MeshOptions& options, pipeline::StageRun& run) {
   const PosedScans posed = placed_scans(run);
-  const PointCloud cloud = io::read_cloud_ply(run.artifact("register", "cloud.ply"));
+  // Large, and of no use to methods that go by the scans themselves.
+  const PointCloud cloud = meshing::needs_cloud(posed.scans, options.method)
+                               ? io::read_cloud_ply(run.artifact("register", "cloud.ply"))
+                               : PointCloud();
   const meshing::MeshInput input{posed.scans, posed.world_from_scan, cloud, median_spacing_m(run)};
   const meshing::MeshResult result = meshing::mesh_scans(input, options, run.progress());
   io::write_mesh_ply(run.output("mesh.ply"), result.mesh);
@@ -19,6 +22,8 @@ void run(const meshing::MeshOptions& options, pipeline::StageRun& run) {
   run.metric("faces_trimmed", static_cast<double>(result.faces_trimmed));
   run.metric("components_removed", static_cast<double>(result.components_removed));
   run.metric("non_manifold_repaired", static_cast<double>(result.non_manifold_repaired));
+  run.metric("self_intersections_repaired", static_cast<double>(result.self_intersections_repaired));
+  run.metric("self_intersections", static_cast<double>(result.self_intersections));
 }
 
 }  // namespace
@@ -31,7 +36,7 @@ pipeline::Stage mesh_stage() {
                  {"ingest", "scans/*.ply"},
                  {"register", "poses.json"},
                  {"register", "cloud.ply"}};
-  stage.version = 3;
+  stage.version = 4;
   stage.writes = {"mesh.ply"};
   stage.applies = [](const pipeline::Input& input) { return !input.scans.empty(); };
   stage.instantiate = pipeline::stage_body(run);

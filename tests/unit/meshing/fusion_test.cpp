@@ -79,7 +79,11 @@ TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
           field.distances.push_back(
               static_cast<std::int16_t>(2 * (static_cast<int>(random.below(20001)) - 10000)));
       }
-  const TriangleMesh mesh = field_surface(blocks, field).mesh;
+  MarchingCubes cubes(blocks);
+  cubes.number(field, blocks.size());
+  std::vector<SurfacePart> parts;
+  parts.push_back(cubes.part(field, blocks.size()));
+  const TriangleMesh mesh = joined(std::move(parts), blocks);
   ASSERT_GT(mesh.faces.size(), 20000U);
   const MeshQuality quality = mesh_quality(mesh);
   EXPECT_EQ(quality.non_manifold_edges, 0U);

@@ -72,7 +72,7 @@ inline void describe(Binder& b, MeshOptions& o) {
 }
 
 /// `world_from_scan` is as long as `scans`. `cloud` holds the registered samples of all scans in the world
-/// frame. `spacing` is their median distance to the next sample of the same scan, > 0.
+/// frame (see needs_cloud). `spacing` is their median distance to the next sample of the same scan, > 0.
 struct MeshInput {
   std::span<const RangeScan> scans;
   std::span<const Rigid3> world_from_scan;
@@ -86,12 +86,19 @@ struct MeshResult {
   std::size_t samples_used = 0;        // after merging
   std::size_t faces_trimmed = 0;       // too far from every sample
   std::size_t components_removed = 0;  // too small
-  std::size_t non_manifold_repaired = 0;  // edges and vertices
-  bool normals_reversed = false;          // the cloud's normals pointed away from the scanners
+  std::size_t non_manifold_repaired = 0;        // edges and vertices
+  std::size_t self_intersections_repaired = 0;  // pairs of faces that crossed
+  std::size_t self_intersections = 0;           // pairs that still cross; of several grids where sheets do
+  bool normals_reversed = false;                // the cloud's normals pointed away from the scanners
 };
+
+/// Whether meshing these scans by a method makes use of MeshInput::cloud, which else may be empty.
+[[nodiscard]] bool needs_cloud(std::span<const RangeScan> scans, Method method);
 
 /// Meshes registered scans. Every outcome is a manifold mesh (each edge has one or two faces, each vertex one
 /// fan of faces) that is consistently oriented: outward, which is towards the scanners where these are known.
+/// Where faces cross they are cut out and the cut is closed; of fusion none do, since a triangle of marching
+/// cubes lies within its cube, and the sheets of several grids may cross, since they are not joined.
 ///
 /// fusion: Curless and Levoy 1996 on denoised range grids. About 2 us a sample at the default voxel. Scans
 /// without a grid are triangulated as their sight sees them (8 us a sample).

@@ -17,4 +17,8 @@ struct PeerMesh {
 /// no mesh.
 [[nodiscard]] std::optional<PeerMesh> pcl_poisson_mesh(const PointCloud& cloud, int depth);
 
+/// The same by MeshLab (`meshlabserver` under `xvfb-run`; Debian packages meshlab and xvfb), whose filter is
+/// the screened Poisson reconstruction of Kazhdan and Hoppe 2013, with its parameters' defaults.
+[[nodiscard]] std::optional<PeerMesh> meshlab_poisson_mesh(const PointCloud& cloud, int depth);
+
 }  // namespace drape::test
