@@ -1,5 +1,9 @@
 #include "marching_cubes.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -124,6 +128,13 @@ void place_vertices(const CubeCorners& corners, const CutEdges& edges, Eigen::Ve
       }
 }
 
+// Freed blocks of some megabytes stay with the process otherwise, and this is where memory peaks.
+void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 template <class Attribute>
 void append(std::vector<Attribute>& to, std::vector<Attribute>& from) {
   to.insert(to.end(), from.begin(), from.end());
@@ -227,7 +238,13 @@ TriangleMesh joined(std::vector<SurfacePart> parts, const FusionBlocks& blocks) 
     expect(mesh.intensities, parts.front().intensities);
     expect(mesh.confidences, parts.front().confidences);
   }
+  constexpr std::size_t faces_between_returns = 4'000'000;
+  std::size_t next_return = 0;
   for (SurfacePart& part : parts) {
+    if (mesh.faces.size() >= next_return) {
+      return_freed_memory();
+      next_return = mesh.faces.size() + faces_between_returns;
+    }
     parallel_for(part.first_vertex.size() - 1, blocks_per_chunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         const Eigen::Vector3d corner = blocks.corner(part.first_block + k).cast<double>();

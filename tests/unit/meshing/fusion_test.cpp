@@ -65,8 +65,8 @@ void expect_sound(const TriangleMesh& mesh) {
   EXPECT_EQ(mesh.normals.size(), mesh.vertices.size());
 }
 
-TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
-  // A field of noise has every case beside every other.
+// A field of noise has every case beside every other. 3 x 3 x 3 blocks.
+std::pair<FusionBlocks, FusedField> field_of_noise() {
   FusionBlocks blocks;
   blocks.lattice.voxel = 1;
   FusedField field;
@@ -79,11 +79,37 @@ TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
           field.distances.push_back(
               static_cast<std::int16_t>(2 * (static_cast<int>(random.below(20001)) - 10000)));
       }
+  return {std::move(blocks), std::move(field)};
+}
+
+TriangleMesh surface_at_once(const FusionBlocks& blocks, const FusedField& field) {
   MarchingCubes cubes(blocks);
   cubes.number(field, blocks.size());
   std::vector<SurfacePart> parts;
   parts.push_back(cubes.part(field, blocks.size()));
-  const TriangleMesh mesh = joined(std::move(parts), blocks);
+  return joined(std::move(parts), blocks);
+}
+
+TEST(MarchingCubes, SlabBySlabMakesTheSameMesh) {
+  const auto [blocks, field] = field_of_noise();
+  const TriangleMesh whole = surface_at_once(blocks, field);
+  FusedField window = field;
+  MarchingCubes cubes(blocks);
+  std::vector<SurfacePart> parts;
+  cubes.number(window, 9);
+  for (std::size_t end = 9; end <= 27; end += 9) {
+    cubes.number(window, std::min<std::size_t>(end + 9, 27));
+    parts.push_back(cubes.part(window, end));
+    window.forget_before(end);
+  }
+  const TriangleMesh slabs = joined(std::move(parts), blocks);
+  EXPECT_EQ(slabs.vertices, whole.vertices);
+  EXPECT_EQ(slabs.faces, whole.faces);
+}
+
+TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
+  const auto [blocks, field] = field_of_noise();
+  const TriangleMesh mesh = surface_at_once(blocks, field);
   ASSERT_GT(mesh.faces.size(), 20000U);
   const MeshQuality quality = mesh_quality(mesh);
   EXPECT_EQ(quality.non_manifold_edges, 0U);
@@ -430,8 +456,11 @@ TEST(AutomaticMethod, DependsOnWhatIsKnown) {
   PointCloud cloud = test::sampled_sphere(20, 1);
   const auto method = [&] { return mesh_scans({all.scans, all.world_from_scan, cloud, 1}, {}).method; };
   EXPECT_EQ(method(), Method::fusion);
+  EXPECT_FALSE(needs_cloud(all.scans, Method::automatic));
+  EXPECT_TRUE(needs_cloud(all.scans, Method::poisson));
   all.scans[3] = test::without_view(all.scans[3]);
   EXPECT_EQ(method(), Method::poisson);
+  EXPECT_TRUE(needs_cloud(all.scans, Method::automatic));
   cloud.normals.clear();
   EXPECT_EQ(method(), Method::advancing_front);
 }

@@ -10,6 +10,7 @@
 #include "drape/geometry/mesh_topology.hpp"
 #include "drape/meshing/mesh_quality.hpp"
 #include "shapes.hpp"
+#include "spot_mending.hpp"
 #include "support.hpp"
 
 namespace drape::meshing {
@@ -239,6 +240,23 @@ TEST(ScaleSpace, FollowsNoisySamplesRoundASphere) {
             0.1 + 5 * 0.05);
   for (std::size_t i = 0; i < result.mesh.faces.size(); ++i)
     EXPECT_GT(scaled_face_normal(result.mesh, i).dot(result.mesh.vertices[result.mesh.faces[i][0]]), 0);
+}
+
+TEST(Crossings, AreCutOutAndTheCutIsClosed) {
+  TriangleMesh mesh = test::sphere(10, 32);
+  const TriangleMesh sound = mesh;
+  // One vertex pulled sideways over its neighbours, and one through the far side.
+  mesh.vertices[200] += 2.5 * mesh.vertices[200].unitOrthogonal();
+  mesh.vertices[900] *= -1.05;
+  const std::size_t pairs = self_intersecting_pairs(mesh).size();
+  ASSERT_GT(pairs, 5U);
+  const Uncrossed mended = with_crossings_mended(mesh);
+  EXPECT_EQ(mended.found, pairs);
+  EXPECT_EQ(mended.left, 0U);
+  EXPECT_EQ(self_intersecting_pairs(mended.mesh).size(), 0U);
+  EXPECT_TRUE(mesh_quality(mended.mesh).closed());
+  EXPECT_NEAR(signed_volume(mended.mesh), signed_volume(sound), 0.02 * signed_volume(sound));
+  EXPECT_EQ(with_crossings_mended(sound).mesh.faces, sound.faces);
 }
 
 TEST(AdvancingFront, NeedsNoNormals) {
