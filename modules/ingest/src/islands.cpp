@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "drape/base/parallel.hpp"
 #include "drape/ingest/point_spacing.hpp"
 
 namespace drape::ingest {
@@ -20,23 +21,31 @@ std::vector<Eigen::Vector3d> sample_coordinates(const RangeScan& scan, const Sca
     // walls.
     const LocalSpacing local(scan, spacing);
     double unit = spacing;
-    for (const auto& p : points) unit = std::max(unit, local.at(p));
-    for (std::size_t i = 0; i < points.size(); ++i) result[i] = points[i] / unit;
+    if (scan.view.kind == ScanView::Kind::origin)
+      for (const auto& p : points) unit = std::max(unit, local.at(p));
+    constexpr std::size_t chunk = 1 << 14;
+    parallel_for(points.size(), chunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) result[i] = points[i] / unit;
+    });
     return result;
   }
   const LocalSpacing local(scan, spacing);
-  for (int row = 0; row < scan.grid->rows; ++row)
-    for (int column = 0; column < scan.grid->columns; ++column) {
-      const auto index = scan.grid->at(row, column);
-      if (index == RangeGrid::missing) continue;
-      const Eigen::Vector3d& p = points[index];
-      // A step of one local spacing in range is the same step of log(range) everywhere.
-      const double depth =
-          view.kind == ScanView::Kind::direction
-              ? view.vector.dot(p) / spacing
-              : std::log(std::max((p - view.vector).norm(), 1e-300)) * (p - view.vector).norm() / local.at(p);
-      result[static_cast<std::size_t>(index)] = Eigen::Vector3d(row, column, depth);
-    }
+  constexpr std::size_t rows_per_chunk = 16;
+  parallel_for(static_cast<std::size_t>(scan.grid->rows), rows_per_chunk,
+               [&](std::size_t begin, std::size_t end) {
+                 for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
+                   for (int column = 0; column < scan.grid->columns; ++column) {
+                     const auto index = scan.grid->at(row, column);
+                     if (index == RangeGrid::missing) continue;
+                     const Eigen::Vector3d& p = points[index];
+                     // A step of one local spacing in range is the same step of log(range) everywhere.
+                     const double depth = view.kind == ScanView::Kind::direction
+                                              ? view.vector.dot(p) / spacing
+                                              : std::log(std::max((p - view.vector).norm(), 1e-300)) *
+                                                    (p - view.vector).norm() / local.at(p);
+                     result[static_cast<std::size_t>(index)] = Eigen::Vector3d(row, column, depth);
+                   }
+               });
   return result;
 }
 
@@ -87,12 +96,18 @@ std::vector<std::uint8_t> small_islands(const RangeScan& scan, const ScanView& v
     Cube cube;
     std::size_t end;
   };
+  constexpr std::size_t chunk = 1 << 14;
+  std::vector<std::vector<Run>> of_chunk((order.size() + chunk - 1) / chunk);
+  parallel_for(order.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<Run>& runs = of_chunk[begin / chunk];
+    for (std::size_t k = begin; k < end; ++k) {
+      const Cube cube = cube_of(coordinates[order[k]]);
+      if (runs.empty() || runs.back().cube != cube) runs.push_back({cube, k});
+      runs.back().end = k + 1;
+    }
+  });
   std::vector<Run> runs;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const Cube cube = cube_of(coordinates[order[k]]);
-    if (runs.empty() || runs.back().cube != cube) runs.push_back({cube, k});
-    runs.back().end = k + 1;
-  }
+  for (const std::vector<Run>& some : of_chunk) runs.insert(runs.end(), some.begin(), some.end());
   std::vector<Cube> cubes(runs.size());
   std::transform(runs.begin(), runs.end(), cubes.begin(), [](const Run& run) { return run.cube; });
   std::sort(cubes.begin(), cubes.end());

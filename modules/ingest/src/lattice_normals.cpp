@@ -23,14 +23,16 @@ std::vector<Eigen::Vector3f> lattice_normals(const RangeScan& scan, const LocalS
   std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
   struct Offset {
     int down, right;
-    double cells;  // at least 1
+    std::ptrdiff_t cells_on;
+    double squared_cells;  // at least 1
   };
   std::vector<Offset> offsets;
   const int reach = static_cast<int>(std::floor(radius_cells));
   for (int down = -reach; down <= reach; ++down)
     for (int right = -reach; right <= reach; ++right)
       if (const double cells = std::hypot(down, right); cells <= radius_cells)
-        offsets.push_back({down, right, std::max(1.0, cells)});
+        offsets.push_back(
+            {down, right, std::ptrdiff_t{down} * grid.columns + right, std::pow(std::max(1.0, cells), 2)});
   constexpr std::size_t rows_per_chunk = 8;
   parallel_for(static_cast<std::size_t>(grid.rows), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
     for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
@@ -38,15 +40,22 @@ std::vector<Eigen::Vector3f> lattice_normals(const RangeScan& scan, const LocalS
         const std::int32_t center = grid.at(row, column);
         if (center == RangeGrid::missing) continue;
         const double step = longest_step_spacings * spacing.at(points[center]);
+        const double squared_step = step * step;
+        const bool inside =
+            row >= reach && column >= reach && row + reach < grid.rows && column + reach < grid.columns;
+        const std::int32_t* const cell =
+            &grid.cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+                        static_cast<std::size_t>(column)];
         bool other_row = false;
         bool other_column = false;
         int count = 0;
         PlaneFit plane;
         for (const Offset& offset : offsets) {
-          const std::int32_t index = cell_or_missing(grid, row + offset.down, column + offset.right);
+          const std::int32_t index = inside ? cell[offset.cells_on]
+                                            : cell_or_missing(grid, row + offset.down, column + offset.right);
           if (index == RangeGrid::missing) continue;
           const Eigen::Vector3d to = points[index] - points[center];
-          if (to.squaredNorm() > step * step * offset.cells * offset.cells) continue;
+          if (to.squaredNorm() > squared_step * offset.squared_cells) continue;
           plane.add(to);
           ++count;
           other_row |= offset.down != 0;

@@ -37,6 +37,19 @@ Eigen::Vector3f normal_of(const OrderedPoints& points, const Eigen::Vector3d& ce
 
 }  // namespace
 
+void nearest_kept(const OrderedPoints& points, const Eigen::Vector3d& query, std::size_t count,
+                  std::span<const std::uint8_t> dropped, std::vector<Near>& found) {
+  for (std::size_t asked = count;; asked *= 2) {
+    found.resize(asked);
+    found.resize(points.nearest(query, found));
+    const bool all = found.size() < asked;
+    if (!dropped.empty())
+      std::erase_if(found, [&](const Near& n) { return dropped[points.original(n.index())] != 0; });
+    if (found.size() >= count) return found.resize(count);
+    if (all) return;
+  }
+}
+
 Neighborhoods measure_neighborhoods(const OrderedPoints& points, const NeighborhoodSpec& spec) {
   Neighborhoods result;
   if (spec.distance_neighbors > 0) result.mean_distances.resize(points.size());
@@ -72,13 +85,15 @@ Neighborhoods measure_neighborhoods(const OrderedPoints& points, const Neighborh
 }
 
 std::vector<Eigen::Vector3f> normals_at(const OrderedPoints& points, std::span<const Eigen::Vector3d> queries,
-                                        std::size_t neighbors) {
+                                        std::size_t neighbors, std::span<const std::uint8_t> dropped) {
   std::vector<Eigen::Vector3f> normals(queries.size());
   constexpr std::size_t chunk = 2048;
   parallel_for(queries.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<Near> found(neighbors + 1);
-    for (std::size_t i = begin; i < end; ++i)
-      normals[i] = normal_of(points, queries[i], std::span(found).first(points.nearest(queries[i], found)));
+    std::vector<Near> found;
+    for (std::size_t i = begin; i < end; ++i) {
+      nearest_kept(points, queries[i], neighbors + 1, dropped, found);
+      normals[i] = normal_of(points, queries[i], found);
+    }
   });
   return normals;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,10 +29,17 @@ struct Neighborhoods {
 /// All from one query a point. `points` must be all of the caller's points.
 [[nodiscard]] Neighborhoods measure_neighborhoods(const OrderedPoints& points, const NeighborhoodSpec& spec);
 
+/// The `count` points nearest to `query` into `found`, nearest first, without those whose `dropped`, in the
+/// caller's order, is not 0; fewer where there are not so many.
+void nearest_kept(const OrderedPoints& points, const Eigen::Vector3d& query, std::size_t count,
+                  std::span<const std::uint8_t> dropped, std::vector<Near>& found);
+
 /// The normals of the planes through the `neighbors` points nearest to each of the queries, and the nearest
-/// of all, sign arbitrary.
+/// of all, sign arbitrary; as if those points were not there whose `dropped`, in the caller's order, is not
+/// 0.
 [[nodiscard]] std::vector<Eigen::Vector3f> normals_at(const OrderedPoints& points,
                                                       std::span<const Eigen::Vector3d> queries,
-                                                      std::size_t neighbors);
+                                                      std::size_t neighbors,
+                                                      std::span<const std::uint8_t> dropped = {});
 
 }  // namespace drape::ingest

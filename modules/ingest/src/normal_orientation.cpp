@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "drape/base/parallel.hpp"
+
 namespace drape::ingest {
 namespace {
 
@@ -81,8 +83,11 @@ std::vector<Edge> sorted_edges(const OrderedPoints& points, const std::vector<Ei
 
 std::vector<Eigen::Vector3f> oriented_to_view(std::vector<Eigen::Vector3f> normals,
                                               std::span<const Eigen::Vector3d> points, const ScanView& view) {
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    if (normals[i].cast<double>().dot(view.towards_scanner(points[i])) < 0) normals[i] = -normals[i];
+  constexpr std::size_t chunk = 1 << 14;
+  parallel_for(normals.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (normals[i].cast<double>().dot(view.towards_scanner(points[i])) < 0) normals[i] = -normals[i];
+  });
   return normals;
 }
 

@@ -203,7 +203,8 @@ struct OrderedPoints::Candidates {
   };
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<Block> blocks;
-  std::vector<Near> near;
+  std::vector<Near> near;  // the first `found` of them; the rest is room
+  std::size_t found = 0;
 
   void add(const OrderedPoints& points, std::size_t index, float reach) {
     const Bucket& bucket = points.buckets_[index];
@@ -226,8 +227,8 @@ struct OrderedPoints::Candidates {
   }
   void find_around(const Eigen::Vector3d& point, float squared_reach) {
     const Eigen::Array3f from = rounded(point - origin);
-    near.resize(blocks.size() * width);
-    std::size_t found = 0;
+    if (near.size() < blocks.size() * width) near.resize(blocks.size() * width);
+    found = 0;
     for (const Block& block : blocks) {
       const Lanes squared = squared_lengths(block.places, from);
       if (!(squared <= squared_reach).any()) continue;
@@ -236,7 +237,6 @@ struct OrderedPoints::Candidates {
         found += squared[k] <= squared_reach ? 1 : 0;
       }
     }
-    near.resize(found);
   }
 };
 
@@ -270,13 +270,14 @@ struct OrderedPoints::Sweep {
                                 [&](std::size_t bucket) { candidates.add(points, bucket, reach_here); });
     std::erase_if(left, [&](std::uint32_t i) {
       candidates.find_around(points.points_[i], reach_here * reach_here);
-      if (candidates.near.size() < count) return false;
-      if (candidates.near.size() > crowd * count) {
+      if (candidates.found < count) return false;
+      if (candidates.found > crowd * count) {
         look_up(i);
         return true;
       }
       const auto last = candidates.near.begin() + static_cast<std::ptrdiff_t>(count) - 1;
-      std::nth_element(candidates.near.begin(), last, candidates.near.end());
+      std::nth_element(candidates.near.begin(), last,
+                       candidates.near.begin() + static_cast<std::ptrdiff_t>(candidates.found));
       finish(i, std::span(candidates.near).first(count));
       return true;
     });

@@ -8,16 +8,17 @@ namespace drape::ingest {
 namespace {
 
 // The least root of x^3 - x^2 + b x - c, which has three real ones that are not negative and sum to 1: left
-// of it the polynomial is concave and rises, so that Newton's steps from 0 approach it and never pass it.
+// of it the polynomial is concave and rises, so that Newton's steps from 0, the first of which leads to c /
+// b, approach it and never pass it.
 double least_eigenvalue(double b, double c) {
-  double x = 0;
+  double x = b > 0 ? c / b : 0.0;
   for (int round = 0; round < 12; ++round) {
     const double value = ((x - 1) * x + b) * x - c;
     const double slope = (3 * x - 2) * x + b;
     if (!(slope > 0) || !(value < 0)) break;
     const double step = value / slope;
     x -= step;
-    if (-step < 1e-15) break;
+    if (-step < 1e-12) break;
   }
   return x;
 }

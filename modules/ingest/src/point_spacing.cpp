@@ -1,10 +1,11 @@
 #include "drape/ingest/point_spacing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "drape/base/parallel.hpp"
 #include "lattice_view.hpp"
+#include "neighborhoods.hpp"
 #include "spacing_parts.hpp"
 
 namespace drape::ingest {
@@ -20,7 +21,7 @@ double median(std::vector<double>& values) {
 // Median distance across the rays of points that lie `rows` and `columns` cells apart, by a part of the rows
 // where there are very many.
 double lattice_step(const RangeScan& scan, const ScanView& view, int rows, int columns) {
-  constexpr std::size_t enough = 200'000;
+  constexpr std::size_t enough = 20'000;  // a median needs no more
   const auto& points = scan.cloud.positions;
   const RangeGrid& grid = *scan.grid;
   const int stride = std::max(1, static_cast<int>(points.size() / enough));
@@ -48,20 +49,27 @@ std::optional<double> lattice_spacing(const RangeScan& scan) {
   return std::nullopt;
 }
 
-double neighbor_spacing(const OrderedPoints& points) {
+double neighbor_spacing(const OrderedPoints& points, const std::vector<std::uint8_t>& dropped) {
   constexpr std::size_t nearest = 4;      // the neighbours at distance 1 on a square lattice
   constexpr std::size_t places = 20'000;  // a median needs no more
   const std::size_t stride = std::max<std::size_t>(1, points.size() / places);
-  std::vector<double> distances;
-  std::array<Near, nearest + 1> found;
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    const std::size_t count = points.nearest(points.points()[i], found);
-    double sum = 0;
-    for (std::size_t n = 1; n < count; ++n)
-      sum += std::sqrt(static_cast<double>(found[n].squared_distance()));
-    if (count > 1) distances.push_back(sum / static_cast<double>(count - 1));
-  }
-  return median(distances);
+  const auto is_dropped = [&](std::size_t i) { return !dropped.empty() && dropped[points.original(i)] != 0; };
+  std::vector<double> mean(points.size() / stride + 1, -1);
+  constexpr std::size_t chunk = 512;
+  parallel_for(mean.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<Near> found;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = k * stride;
+      if (i >= points.size() || is_dropped(i)) continue;
+      nearest_kept(points, points.points()[i], nearest + 1, dropped, found);
+      double sum = 0;
+      for (std::size_t n = 1; n < found.size(); ++n)
+        sum += std::sqrt(static_cast<double>(found[n].squared_distance()));
+      if (found.size() > 1) mean[k] = sum / static_cast<double>(found.size() - 1);
+    }
+  });
+  std::erase_if(mean, [](double distance) { return distance < 0; });
+  return median(mean);
 }
 
 double point_spacing(const RangeScan& scan) {

@@ -14,6 +14,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t coarse_samples = 1500;
 constexpr std::size_t fine_samples = 6000;
+constexpr double nearly_converged = 10;  // times the tolerance: from there on many samples count
 constexpr std::size_t least_matches = 20;
 
 // Motions are a rotation vector times `radius` and a translation, both about `center`: one unit of either
@@ -173,6 +174,7 @@ JointResult refine_jointly(std::span<const ScanSurface> surfaces, std::span<cons
   }
   const MotionFrame frame = motion_frame(surfaces, poses, takes_part);
   double reach = std::max(options.start_reach, options.end_reach);
+  bool exact = false;
   while (result.iterations < options.iterations && !result.converged) {
     progress.update(static_cast<double>(result.iterations) / options.iterations,
                     "fitting the scans together");
@@ -187,7 +189,7 @@ JointResult refine_jointly(std::span<const ScanSurface> surfaces, std::span<cons
     parallel_for(pairs.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
         systems[k] = pair_system(surfaces[pairs[k].from], surfaces[pairs[k].to], poses[pairs[k].from],
-                                 poses[pairs[k].to], frame, fine ? fine_samples : coarse_samples, reach);
+                                 poses[pairs[k].to], frame, exact ? fine_samples : coarse_samples, reach);
     });
     const std::vector<Vector6> motions = solve(pairs, systems, surfaces.size());
     double motion = 0;
@@ -198,7 +200,8 @@ JointResult refine_jointly(std::span<const ScanSurface> surfaces, std::span<cons
       poses[i] = after;
     }
     ++result.iterations;
-    result.converged = fine && motion < options.tolerance;
+    result.converged = exact && motion < options.tolerance;
+    exact = exact || (fine && motion < nearly_converged * options.tolerance);
     reach = std::clamp(std::min(0.8 * reach, 4 * motion), options.end_reach, reach);
   }
   return result;

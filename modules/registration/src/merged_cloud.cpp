@@ -63,6 +63,11 @@ PointCloud merged_cloud(std::span<const RangeScan> scans,
   const bool colors = all_have([](const PointCloud& c) -> const auto& { return c.colors; });
   const bool intensities = all_have([](const PointCloud& c) -> const auto& { return c.intensities; });
   PointCloud merged;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scans.size(); ++i) count += use[i] != 0 ? scans[i].cloud.size() : 0;
+  merged.positions.reserve(count);
+  merged.normals.reserve(count);
+  merged.confidences.reserve(count);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const PointCloud& cloud = scans[i].cloud;
     if (use[i] == 0 || cloud.empty()) continue;

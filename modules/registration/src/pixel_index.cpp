@@ -34,9 +34,11 @@ PixelIndex::PixelIndex(const ScanView& view, std::span<const Eigen::Vector3d> po
       view.kind == ScanView::Kind::direction ? spacing : spacing / median_range(view, points);
   if (!(pixel > 0)) return;
   const ViewProjection projection(view, mean_ray(view, points));
+  std::vector<Eigen::Vector2d> places(points.size(),
+                                      Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
   Eigen::AlignedBox2d seen;
-  for (const auto& p : points)
-    if (const auto sighting = projection.of(p)) seen.extend(sighting->place);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const auto sighting = projection.of(points[i])) seen.extend(places[i] = sighting->place);
   if (seen.isEmpty()) return;
   const Eigen::Array2d size = (seen.sizes().array() / pixel).floor() + 3;
   if (!(size.prod() <= most_pixels_per_point * static_cast<double>(points.size()) + 4096)) return;
@@ -47,14 +49,17 @@ PixelIndex::PixelIndex(const ScanView& view, std::span<const Eigen::Vector3d> po
   indices_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), nothing);
   projection_ = projection;
   for (std::uint32_t i = 0; i < points.size(); ++i)
-    if (const auto pixel_here = pixel_of(points[i]))
+    if (const auto pixel_here = pixel_at(places[i]))
       indices_[static_cast<std::size_t>(pixel_here->y() * columns_ + pixel_here->x())] = i;
 }
 
 std::optional<Eigen::Array2i> PixelIndex::pixel_of(const Eigen::Vector3d& point) const {
   const auto sighting = projection_->of(point);
-  if (!sighting) return std::nullopt;
-  const Eigen::Array2d pixel = sighting->place.array() * inverse_pixel_ - corner_;
+  return sighting ? pixel_at(sighting->place) : std::nullopt;
+}
+
+std::optional<Eigen::Array2i> PixelIndex::pixel_at(const Eigen::Vector2d& place) const {
+  const Eigen::Array2d pixel = place.array() * inverse_pixel_ - corner_;
   if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < columns_ - 1 && pixel.y() < rows_ - 1))
     return std::nullopt;
   return pixel.cast<int>();

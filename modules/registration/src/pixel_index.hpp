@@ -29,6 +29,7 @@ class PixelIndex {
 
  private:
   [[nodiscard]] std::optional<Eigen::Array2i> pixel_of(const Eigen::Vector3d& point) const;
+  [[nodiscard]] std::optional<Eigen::Array2i> pixel_at(const Eigen::Vector2d& place) const;
 
   std::span<const Eigen::Vector3d> points_;
   std::optional<ViewProjection> projection_;

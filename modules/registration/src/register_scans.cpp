@@ -7,6 +7,8 @@
 
 #include "drape/base/parallel.hpp"
 #include "drape/ingest/estimate_normals.hpp"
+#include "drape/ingest/point_spacing.hpp"
+#include "drape/ingest/spatial_order.hpp"
 #include "global_placement.hpp"
 #include "joint_refinement.hpp"
 #include "merged_cloud.hpp"
@@ -19,30 +21,28 @@ namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
-// Of each scan's points: its own, else estimated ones.
-struct ScanNormals {
-  explicit ScanNormals(std::span<const RangeScan> scans) : estimated(scans.size()) {
+// Of each scan the normals of its points, its own or else estimated ones, and its surface.
+struct PreparedScans {
+  explicit PreparedScans(std::span<const RangeScan> scans) : estimated(scans.size()), normals(scans.size()) {
+    std::vector<std::optional<ScanSurface>> built(scans.size());
     parallel_for(scans.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (scans[i].cloud.normals.size() != scans[i].cloud.size())
-          estimated[i] = ingest::estimate_normals(scans[i]);
+      for (std::size_t i = begin; i < end; ++i) {
+        const RangeScan& scan = scans[i];
+        const double spacing = scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan);
+        const std::vector<std::uint32_t> order = ingest::morton_order(scan.cloud.positions);
+        normals[i] = scan.cloud.normals;
+        if (scan.cloud.normals.size() != scan.cloud.size())
+          normals[i] = estimated[i] = ingest::estimate_normals(scan, spacing, order);
+        built[i].emplace(scan, spacing, order, normals[i]);
+      }
     });
-    for (std::size_t i = 0; i < scans.size(); ++i)
-      of.emplace_back(estimated[i].empty() ? scans[i].cloud.normals : estimated[i]);
+    for (auto& surface : built) surfaces.push_back(std::move(*surface));
   }
-  std::vector<std::vector<Eigen::Vector3f>> estimated;
-  std::vector<std::span<const Eigen::Vector3f>> of;
-};
 
-std::vector<ScanSurface> surfaces_of(std::span<const RangeScan> scans, const ScanNormals& normals) {
-  std::vector<std::optional<ScanSurface>> built(scans.size());
-  parallel_for(scans.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) built[i].emplace(scans[i], normals.of[i]);
-  });
+  std::vector<std::vector<Eigen::Vector3f>> estimated;
+  std::vector<std::span<const Eigen::Vector3f>> normals;
   std::vector<ScanSurface> surfaces;
-  for (auto& surface : built) surfaces.push_back(std::move(*surface));
-  return surfaces;
-}
+};
 
 std::vector<Rigid3> poses_of(const std::vector<PlacedScan>& scans) {
   std::vector<Rigid3> poses;
@@ -67,9 +67,12 @@ double median_spacing(const std::vector<ScanSurface>& surfaces) {
 }
 
 double mean_move(const ScanSurface& surface, const Rigid3& before, const Rigid3& after) {
+  constexpr std::size_t enough = 5000;
+  const std::vector<std::uint32_t> sample = surface.sample(enough);
   double sum = 0;
-  for (const auto& p : surface.points()) sum += (after * p - before * p).norm();
-  return surface.size() > 0 ? sum / static_cast<double>(surface.size()) : 0.0;
+  for (const std::uint32_t i : sample)
+    sum += (after * surface.points()[i] - before * surface.points()[i]).norm();
+  return sample.empty() ? 0.0 : sum / static_cast<double>(sample.size());
 }
 
 // Without any pose, and without a search for them, the first scan with points is the world.
@@ -84,10 +87,11 @@ std::optional<std::size_t> place_first(std::vector<PlacedScan>& scans,
   return std::nullopt;
 }
 
-// Joint refinement, taken back if it makes the fit worse.
-void refine(Registration& result, const std::vector<ScanSurface>& surfaces, double start_reach, double reach,
-            const std::vector<FitOnOthers>& before, std::optional<std::size_t> world_scan,
-            const RegisterOptions& options, const Progress& progress) {
+// Joint refinement, taken back if it makes the fit worse. Returns the fits of what stays.
+std::vector<FitOnOthers> refine(Registration& result, const std::vector<ScanSurface>& surfaces,
+                                double start_reach, double reach, const std::vector<FitOnOthers>& before,
+                                std::optional<std::size_t> world_scan, const RegisterOptions& options,
+                                const Progress& progress) {
   const Mask use = mask_of(result.scans);
   const JointOptions joint{start_reach, reach, 0.01 * median_spacing(surfaces), options.iterations};
   JointResult refined = refine_jointly(surfaces, poses_of(result.scans), use, joint, progress);
@@ -96,7 +100,7 @@ void refine(Registration& result, const std::vector<ScanSurface>& surfaces, doub
   // The measure differs from what was minimised (weights, and one distance a point): a tenth is no loss.
   if (truncated_mean_square(after, reach) > 1.1 * truncated_mean_square(before, reach)) {
     result.converged = false;
-    return;
+    return before;
   }
   result.converged = refined.converged;
   // Refinement keeps the mean of the poses; where one scan defines the world, the world stays with that scan.
@@ -106,13 +110,14 @@ void refine(Registration& result, const std::vector<ScanSurface>& surfaces, doub
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (use[i] != 0 && i != world_scan)
       result.scans[i].world_from_scan = world_from_refined * refined.world_from_scan[i];
+  return after;
 }
 
-// Takes back the scans that were found but, once all are refined, do not fit after all.
-void review_found(Registration& result, const GlobalPlacement& found, const Mask& came_with_pose,
-                  const std::vector<ScanSurface>& surfaces, double reach, const RegisterOptions& options) {
-  const auto fits = measure_fits(surfaces, poses_of(result.scans), mask_of(result.scans), reach);
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+// Takes back the scans that were found but, once all are refined, do not fit after all; whether any.
+bool review_found(Registration& result, const GlobalPlacement& found, const Mask& came_with_pose,
+                  const std::vector<FitOnOthers>& fits, const RegisterOptions& options) {
+  bool taken_back = false;
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
     PlacedScan& scan = result.scans[i];
     if (!scan.placed || came_with_pose[i] != 0 || i == found.world_scan) continue;
     const double percent = 100 * fits[i].any.overlap();
@@ -125,8 +130,17 @@ void review_found(Registration& result, const GlobalPlacement& found, const Mask
       scan.reason += fmt::format(" ({:.0f} % overlap)", percent);
     } else {
       scan = {.reason = "no pose was given, and none was found: " + against};
+      taken_back = true;
     }
   }
+  // No pose rests on the pairs of scans that are not placed.
+  for (SearchedPair& pair : result.searched)
+    for (const std::size_t end : {pair.first, pair.second})
+      if (pair.accepted && !result.scans[end].placed) {
+        pair.accepted = false;
+        pair.reason = "not placed in the end: " + result.scans[end].reason;
+      }
+  return taken_back;
 }
 
 void report_quality(Registration& result, const std::vector<FitOnOthers>& before,
@@ -158,8 +172,8 @@ Registration register_scans(std::span<const RangeScan> scans,
   assert(scans.size() == given_world_from_scan.size());
   Registration result;
   progress.update(0, "preparing the scans");
-  const ScanNormals normals(scans);
-  const std::vector<ScanSurface> surfaces = surfaces_of(scans, normals);
+  const PreparedScans prepared(scans);
+  const std::vector<ScanSurface>& surfaces = prepared.surfaces;
   const double reach = fine_reach(surfaces);
   result.scans = place_given(scans, given_world_from_scan);
   if (options.method == Method::global)
@@ -179,17 +193,22 @@ Registration register_scans(std::span<const RangeScan> scans,
   }
   const std::vector<Rigid3> at_start = poses_of(result.scans);
   const auto before = measure_fits(surfaces, at_start, mask_of(result.scans), reach);
+  std::vector<FitOnOthers> fits = before;
   if (move)
-    refine(result, surfaces, start_reach, reach, before, found.world_scan, options, progress.part(0.6, 0.9));
-  if (!found.searched.empty()) review_found(result, found, came_with_pose, surfaces, reach, options);
+    fits = refine(result, surfaces, start_reach, reach, before, found.world_scan, options,
+                  progress.part(0.6, 0.9));
+  const bool taken_back =
+      !found.searched.empty() && review_found(result, found, came_with_pose, fits, options);
 
   const Mask use = mask_of(result.scans);
-  report_quality(result, before, measure_fits(surfaces, poses_of(result.scans), use, reach));
+  if (taken_back) fits = measure_fits(surfaces, poses_of(result.scans), use, reach);
+  report_quality(result, before, fits);
   for (std::size_t i = 0; i < scans.size(); ++i)
     result.scans[i].moved_m = mean_move(surfaces[i], at_start[i], result.scans[i].world_from_scan);
   progress.update(0.9, "merging the scans");
-  result.merged = thinned(merged_cloud(scans, normals.of, poses_of(result.scans), use),
-                          options.thin_spacings * median_spacing(surfaces));
+  result.merged = merged_cloud(scans, prepared.normals, poses_of(result.scans), use);
+  if (options.thin_spacings > 0)
+    result.merged = thinned(result.merged, options.thin_spacings * median_spacing(surfaces));
   progress.update(1);
   return result;
 }

@@ -14,13 +14,16 @@ constexpr std::size_t most_points = 100'000;
 constexpr std::size_t least_points = 20;
 constexpr double least_normal_cosine = 0.70710678118654752;
 
-bool span_a_surface(const std::vector<Eigen::Vector3d>& points) {
-  if (points.size() < least_points) return false;
+bool span_a_surface(const ScanSurface& surface) {
+  constexpr std::size_t enough = 5000;
+  if (surface.size() < least_points) return false;
+  const std::vector<std::uint32_t> sample = surface.sample(enough);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto& p : points) mean += p;
-  mean /= static_cast<double>(points.size());
+  for (const std::uint32_t i : sample) mean += surface.points()[i];
+  mean /= static_cast<double>(sample.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto& p : points) covariance += (p - mean) * (p - mean).transpose();
+  for (const std::uint32_t i : sample)
+    covariance += (surface.points()[i] - mean) * (surface.points()[i] - mean).transpose();
   const Eigen::Vector3d extents = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues();
   return extents[1] > 1e-6 * extents[2];
 }
@@ -30,7 +33,7 @@ bool span_a_surface(const std::vector<Eigen::Vector3d>& points) {
 double plane_noise(const ScanSurface& surface, const KdTree& tree, const ingest::LocalSpacing& local) {
   std::vector<double> distances;
   std::vector<Neighbor> found(5);
-  for (const std::uint32_t i : surface.sample(2000)) {
+  for (const std::uint32_t i : surface.sample(1000)) {
     const std::size_t count = tree.nearest(surface.points()[i], found);
     for (std::size_t n = 1; n < count; ++n) {
       const std::uint32_t j = found[n].index;
@@ -47,14 +50,21 @@ double plane_noise(const ScanSurface& surface, const KdTree& tree, const ingest:
 }  // namespace
 
 ScanSurface::ScanSurface(const RangeScan& scan, std::span<const Eigen::Vector3f> normals)
+    : ScanSurface(scan, scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan),
+                  ingest::morton_order(scan.cloud.positions), normals) {}
+
+ScanSurface::ScanSurface(const RangeScan& scan, double scan_spacing, std::span<const std::uint32_t> order,
+                         std::span<const Eigen::Vector3f> normals)
     : view_(scan.view),
       box_(bounding_box(scan.cloud.positions)),
-      scan_spacing_(scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan)),
+      scan_spacing_(scan_spacing),
       stride_(std::max<std::size_t>(1, (scan.cloud.size() + most_points - 1) / most_points)),
       spacing_(scan_spacing_ * std::sqrt(static_cast<double>(stride_))),
       local_spacing_(scan, spacing_) {
   const PointCloud& cloud = scan.cloud;
-  const std::vector<std::uint32_t> order = ingest::morton_order(cloud.positions);
+  points_.reserve(order.size() / stride_ + 1);
+  normals_.reserve(order.size() / stride_ + 1);
+  confidences_.reserve(order.size() / stride_ + 1);
   for (std::size_t k = 0; k < order.size(); k += stride_) {
     const std::uint32_t i = order[k];
     points_.push_back(cloud.positions[i]);
@@ -63,7 +73,7 @@ ScanSurface::ScanSurface(const RangeScan& scan, std::span<const Eigen::Vector3f>
   }
   tree_.emplace(points_);
   pixels_.emplace(view_, points_, spacing_);
-  is_surface_ = spacing_ > 0 && span_a_surface(points_);
+  is_surface_ = spacing_ > 0 && span_a_surface(*this);
   noise_ = plane_noise(*this, *tree_, local_spacing_);
 }
 

@@ -30,6 +30,9 @@ class ScanSurface {
  public:
   /// With the normals of the scan's points.
   ScanSurface(const RangeScan& scan, std::span<const Eigen::Vector3f> normals);
+  /// The same where the spacing and the morton_order of the points are known.
+  ScanSurface(const RangeScan& scan, double scan_spacing, std::span<const std::uint32_t> order,
+              std::span<const Eigen::Vector3f> normals);
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }

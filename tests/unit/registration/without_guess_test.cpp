@@ -94,6 +94,14 @@ TEST(WithoutGuess, TheRestOfAnotherObjectIsToldApart) {
   EXPECT_FALSE(found.scans[1].placed);
   for (std::size_t i = 2; i < 5; ++i) EXPECT_TRUE(found.scans[i].placed) << found.scans[i].reason;
   EXPECT_EQ(found.scans[2].world_from_scan.matrix(), Rigid3::Identity().matrix());
+  // Only what the final poses rest on is accepted, though the first two fit each other.
+  for (const SearchedPair& pair : found.searched)
+    if (pair.accepted)
+      EXPECT_TRUE(found.scans[pair.first].placed && found.scans[pair.second].placed);
+    else
+      EXPECT_FALSE(pair.reason.empty());
+  EXPECT_NE(found.searched[0].reason.find("not placed in the end"), std::string::npos)
+      << found.searched[0].reason;
 }
 
 // Scans of an object on a turntable, by one scanner.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "drape/geometry/range_scan.hpp"
@@ -16,6 +18,11 @@ namespace drape::ingest {
 /// per connected part, outward. The points must be finite. Measures the spacing if the scan does not state
 /// it.
 [[nodiscard]] std::vector<Eigen::Vector3f> estimate_normals(const RangeScan& scan,
+                                                            double radius_spacings = 2.5);
+
+/// The same where the spacing and the points' morton_order are known.
+[[nodiscard]] std::vector<Eigen::Vector3f> estimate_normals(const RangeScan& scan, double spacing,
+                                                            std::span<const std::uint32_t> order,
                                                             double radius_spacings = 2.5);
 
 }  // namespace drape::ingest

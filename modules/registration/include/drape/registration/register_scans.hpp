@@ -88,7 +88,7 @@ struct SearchedPair {
   double seen_through = 0;  // the larger of the two shares of points that lie where the other looked through
   double in_void = 0;       // the same of points that lie where the other saw nothing at all
   double hold = 0;          // 0 where what they share slides on itself, as planes and round bodies do
-  bool accepted = false;    // whether the poses of all scans rest on it
+  bool accepted = false;    // whether the final poses rest on it: both scans are placed, and stayed so
   std::string reason;       // why it is not
 };
 
