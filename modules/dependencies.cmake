@@ -13,6 +13,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(meshoptimizer REQUIRED)
+pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(PUGIXML REQUIRED IMPORTED_TARGET pugixml)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 

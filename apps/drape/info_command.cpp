@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "commands.hpp"
@@ -56,21 +57,37 @@ double spacing_of(std::vector<Eigen::Vector3d> points) {
   return *median;
 }
 
+// Median distance to the nearest other point of the same run of a sample. Nothing where the points of the
+// file follow each other in no order of space: then half a run holds neighbours that are further apart.
+std::optional<double> spacing_along(const std::vector<Eigen::Vector3d>& points, std::size_t run) {
+  constexpr std::size_t runs_asked = 64;
+  const std::size_t count = points.size() / run;
+  const auto nearest_within = [&](std::size_t length) {
+    std::vector<double> distances;
+    for (std::size_t r = 0; r < count; r += std::max<std::size_t>(1, count / runs_asked))
+      for (std::size_t i = 0; i < length; ++i) {
+        double squared = std::numeric_limits<double>::infinity();
+        for (std::size_t j = 0; j < length; ++j)
+          if (i != j) squared = std::min(squared, (points[r * run + i] - points[r * run + j]).squaredNorm());
+        distances.push_back(std::sqrt(squared));
+      }
+    const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), median, distances.end());
+    return *median;
+  };
+  if (count == 0) return std::nullopt;
+  const double whole = nearest_within(run);
+  constexpr double in_order = 1.2;  // without an order: sqrt(2) on a surface
+  return nearest_within(run / 2) < in_order * whole ? std::optional(whole) : std::nullopt;
+}
+
 bool is_photo(const std::filesystem::path& file) {
   static constexpr std::array<std::string_view, 10> endings{"jpg",  "jpeg", "png", "tif", "tiff",
                                                             "webp", "bmp",  "ppm", "pgm", "pnm"};
   return std::find(endings.begin(), endings.end(), extension(file)) != endings.end();
 }
 
-void print_scan(const RangeScan& scan, std::size_t of) {
-  if (of > 1) fmt::print("  scan {} of {}\n", scan.index_in_file + 1, of);
-  fmt::print("  points   {} ({})\n", scan.cloud.size(), fields_of(scan.cloud));
-  if (scan.grid) fmt::print("  grid     {} rows, {} columns\n", scan.grid->rows, scan.grid->columns);
-  if (scan.cloud.empty()) return;
-  const BoundingBox box = bounding_box(scan.cloud.positions);
-  fmt::print("  box      {} to {}, diagonal {:.6g}\n", vector_text(box.min()), vector_text(box.max()),
-             box.diagonal().norm());
-  fmt::print("  spacing  {:.4g}\n", spacing_of(scan.cloud.positions));
+void print_view_and_pose(const RangeScan& scan) {
   if (scan.view.kind == ScanView::Kind::origin)
     fmt::print("  scanner  at {}\n", vector_text(scan.view.vector));
   if (scan.view.kind == ScanView::Kind::direction)
@@ -81,6 +98,40 @@ void print_scan(const RangeScan& scan, std::size_t of) {
                vector_text(scan.world_from_scan->translation()), turn.angle() * 180 / M_PI,
                vector_text(turn.axis()));
   }
+}
+
+void print_box(const BoundingBox& box, const char* how) {
+  fmt::print("  box      {} to {}, diagonal {:.6g}{}\n", vector_text(box.min()), vector_text(box.max()),
+             box.diagonal().norm(), how);
+}
+
+void print_scan(const RangeScan& scan, std::size_t of) {
+  if (of > 1) fmt::print("  scan {} of {}\n", scan.index_in_file + 1, of);
+  fmt::print("  points   {} ({})\n", scan.cloud.size(), fields_of(scan.cloud));
+  if (scan.grid) fmt::print("  grid     {} rows, {} columns\n", scan.grid->rows, scan.grid->columns);
+  if (!scan.cloud.empty()) {
+    print_box(bounding_box(scan.cloud.positions), "");
+    fmt::print("  spacing  {:.4g}\n", spacing_of(scan.cloud.positions));
+  }
+  print_view_and_pose(scan);
+}
+
+// A large file, by its header and a part of its points.
+void print_sample(const std::filesystem::path& file, const io::ScanSample& sample) {
+  const PointCloud& cloud = sample.scan.cloud;
+  fmt::print("{}: {}, 1 scan; told from the header and {} points all over the file\n", file.string(),
+             io::scan_format(file).name, cloud.size());
+  fmt::print("  points   {} ({})\n", sample.points, fields_of(cloud));
+  if (sample.rows > 0) fmt::print("  grid     {} rows, {} columns\n", sample.rows, sample.columns);
+  if (sample.stated_box)
+    print_box(*sample.stated_box, ", by the header");
+  else
+    print_box(bounding_box(cloud.positions), ", of the sample");
+  if (const auto spacing = spacing_along(cloud.positions, sample.run_points))
+    fmt::print("  spacing  {:.4g}, along the points as they follow each other\n", *spacing);
+  else
+    fmt::print("  spacing  a sample cannot tell: the points follow each other in no order of space\n");
+  print_view_and_pose(sample.scan);
 }
 
 void print_photo(const std::filesystem::path& file) {
@@ -110,6 +161,10 @@ void info_command(const InfoArguments& arguments) {
       print_photo(file);
       continue;
     }
+    if (const std::optional<io::ScanSample> sample = io::sample_scan(file)) {
+      print_sample(file, *sample);
+      continue;
+    }
     if (const std::optional<TriangleMesh> mesh = mesh_in(file)) {
       print_mesh_info(file, *mesh);
       continue;
@@ -119,6 +174,8 @@ void info_command(const InfoArguments& arguments) {
     fmt::print("{}: {}, {} scan{}\n", file.string(), format.name, scans.size(), scans.size() == 1 ? "" : "s");
     for (std::size_t i = 0; i < std::min(scans.size(), most_shown); ++i) print_scan(scans[i], scans.size());
     if (scans.size() > most_shown) fmt::print("  ... {} more\n", scans.size() - most_shown);
+    if (const std::size_t photos = io::count_embedded_photos(file); photos > 0)
+      fmt::print("  photos   {}\n", photos);
   }
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
+
 #include "drape/base/files.hpp"
 #include "program.hpp"
 #include "support.hpp"
@@ -132,6 +135,31 @@ TEST(CommandLine, InfoSaysHowSoundAMeshIs) {
   const Outcome bad = run_drape({"info", "bad.off"}, folder.path());
   EXPECT_EQ(bad.exit_code, 65);
   EXPECT_TRUE(contains(bad.err, "bad.off")) << bad.err;
+}
+
+TEST(CommandLine, InfoOfALargeScanReadsAPartOfIt) {
+  const ScratchFolder folder;
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1200000\nproperty float x\nproperty float "
+      "y\nproperty float z\nend_header\n";
+  const std::size_t header = bytes.size();
+  bytes.resize(header + 12UL * 1'200'000);
+  for (int i = 0; i < 1'200'000; ++i) {
+    const std::array<float, 3> p{0.5F * static_cast<float>(i % 1000), static_cast<float>(i / 1000), 0};
+    std::memcpy(bytes.data() + header + 12UL * static_cast<std::size_t>(i), p.data(), 12);
+  }
+  write_file(folder / "a.ply", bytes);
+  const Outcome ordered = run_drape({"info", "a.ply"}, folder.path());
+  EXPECT_EQ(ordered.exit_code, 0) << ordered.err;
+  for (const char* words : {"points   1200000 (x y z)", "spacing  0.5, along", "of the sample"})
+    EXPECT_TRUE(contains(ordered.out, words)) << words << ordered.out;
+  for (std::uint64_t i = 0; i < 1'200'000; ++i) {  // each point to another place, by a full cycle
+    const std::uint64_t j = i * 736'481 % 1'200'000;
+    const std::array<float, 3> p{0.5F * static_cast<float>(j % 1000), static_cast<float>(j / 1000), 0};
+    std::memcpy(bytes.data() + header + 12UL * i, p.data(), 12);
+  }
+  write_file(folder / "b.ply", bytes);
+  EXPECT_TRUE(contains(run_drape({"info", "b.ply"}, folder.path()).out, "a sample cannot tell"));
 }
 
 TEST(CommandLine, ReferenceIsCurrentAndCheckNoticesIfNot) {

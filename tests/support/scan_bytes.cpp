@@ -1,9 +1,11 @@
 #include "scan_bytes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 
+#include "drape/base/numbers.hpp"
 #include "picture_bytes.hpp"
 
 namespace drape::test {
@@ -127,16 +129,17 @@ std::string E57Maker::bytes() const {
     logical += section_of(scan, logical.size());
   }
   std::string pictures;
+  const auto number = [](const std::string& name, double value) {
+    return "<" + name + " type=\"Float\">" + format_number(value) + "</" + name + ">";
+  };
   if (!photo.empty()) {
-    pictures =
-        "<images2D type=\"Vector\"><vectorChild type=\"Structure\">" + photo_pose +
-        "<pinholeRepresentation type=\"Structure\"><pngImage type=\"Blob\" fileOffset=\"" +
-        std::to_string(physical(logical.size())) + "\" length=\"" + std::to_string(photo.size()) +
-        "\"/><focalLength type=\"Float\">0.03</focalLength><pixelWidth type=\"Float\">0.00001</pixelWidth>"
-        "<pixelHeight type=\"Float\">0.00002</pixelHeight><principalPointX "
-        "type=\"Float\">1.5</principalPointX>"
-        "<principalPointY "
-        "type=\"Float\">1</principalPointY></pinholeRepresentation></vectorChild></images2D>";
+    pictures = "<images2D type=\"Vector\"><vectorChild type=\"Structure\">" + photo_pose +
+               "<pinholeRepresentation type=\"Structure\"><pngImage type=\"Blob\" fileOffset=\"" +
+               std::to_string(physical(logical.size())) + "\" length=\"" + std::to_string(photo.size()) +
+               "\"/>" + number("focalLength", 1e-5 * focal_x_px) + number("pixelWidth", 1e-5) +
+               number("pixelHeight", 1e-5 * focal_x_px / focal_y_px) +
+               number("principalPointX", center_x_px) + number("principalPointY", center_y_px) +
+               "</pinholeRepresentation></vectorChild></images2D>";
     logical += std::string(8, '\0') + raw(std::uint64_t{16 + photo.size()}, false) + photo;
   }
   const std::string xml =
@@ -153,6 +156,42 @@ std::string E57Maker::bytes() const {
   for (std::size_t at = 0; at < logical.size(); at += payload) {
     const std::string part = logical.substr(at, payload);
     bytes += part + raw(crc32c_of(part), true);
+  }
+  return bytes;
+}
+
+std::string depth_exr(int width, int height, const std::vector<float>& values, const std::string& channel,
+                      const std::vector<std::string>& others) {
+  std::vector<std::string> names = others;
+  names.push_back(channel);
+  std::sort(names.begin(), names.end());
+  const auto end = [](const std::string& text) { return text + '\0'; };
+  const auto attribute = [&](const char* name, const char* type, const std::string& value) {
+    return end(name) + end(type) + raw(static_cast<std::int32_t>(value.size()), false) + value;
+  };
+  std::string channels;
+  for (const std::string& name : names)
+    channels += end(name) + raw(2, false) + raw(0, false) + raw(1, false) + raw(1, false);
+  const auto box = [&](int x, int y) {
+    return raw(x, false) + raw(y, false) + raw(x + width - 1, false) + raw(y + height - 1, false);
+  };
+  std::string bytes = "\x76\x2f\x31\x01" + raw(2, false) + attribute("channels", "chlist", end(channels)) +
+                      attribute("compression", "compression", std::string(1, '\0')) +
+                      attribute("dataWindow", "box2i", box(3, 5)) +
+                      attribute("displayWindow", "box2i", box(0, 0)) +
+                      attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
+                      attribute("pixelAspectRatio", "float", raw(1.0F, false)) +
+                      attribute("screenWindowCenter", "v2f", raw(0.0F, false) + raw(0.0F, false)) +
+                      attribute("screenWindowWidth", "float", raw(1.0F, false)) + '\0';
+  const std::size_t line = 4 * names.size() * static_cast<std::size_t>(width);
+  const std::size_t first = bytes.size() + 8 * static_cast<std::size_t>(height);
+  for (int y = 0; y < height; ++y)
+    bytes += raw(static_cast<std::uint64_t>(first + static_cast<std::size_t>(y) * (8 + line)), false);
+  for (int y = 0; y < height; ++y) {
+    bytes += raw(5 + y, false) + raw(static_cast<std::int32_t>(line), false);
+    for (const std::string& name : names)
+      for (int x = 0; x < width; ++x)
+        bytes += raw(name == channel ? values[static_cast<std::size_t>(y * width + x)] : 9.0F, false);
   }
   return bytes;
 }
@@ -213,6 +252,8 @@ std::vector<ScanFile> scanner_files() {
       {"points.e57", e57.bytes()},
       {"points.3d", "100 200 300\n1 2 3\n-4.5 5.5 6.5\n", true},
       {"decimal_comma.csv", "X;Y;Z\n1,5;2,5;3,5\n4,5;5,5;6,5\n", true},
+      {"depth.png", depth_png(4, 2, {1000, 0, 2000, 3000, 4000, 5000, 6000, 7000})},
+      {"depth.exr", depth_exr(3, 2, {1, 2, 3, 4, 5, 6})},
       {"scan.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n3 0 1 2\n"},
   };
 }

@@ -14,6 +14,12 @@ namespace drape::test {
 /// A 16-bit grey PNG.
 [[nodiscard]] std::string depth_png(int width, int height, const std::vector<std::uint16_t>& values);
 
+/// An OpenEXR picture without compression: one float a pixel in the channel `channel`, and 9 in any `others`
+/// (in the alphabet's order all of them). Its data window begins at (3, 5).
+[[nodiscard]] std::string depth_exr(int width, int height, const std::vector<float>& values,
+                                    const std::string& channel = "Z",
+                                    const std::vector<std::string>& others = {});
+
 /// Puts together an E57 as ASTM E2807 has it: pages with checksums, packets, and the XML that describes them.
 struct E57Maker {
   struct Field {
@@ -28,8 +34,10 @@ struct E57Maker {
     std::int64_t claimed_records = -1;  // other than there are
   };
   std::vector<Scan> scans;
-  std::string photo;       // the bytes of a PNG: focal length 3000 and 1500 px, principal point (1.5, 1)
+  std::string photo;       // the bytes of a PNG
   std::string photo_pose;  // XML
+  // In pixels, which are 10 micrometres wide.
+  double focal_x_px = 3000, focal_y_px = 1500, center_x_px = 1.5, center_y_px = 1;
 
   [[nodiscard]] std::string bytes() const;
 };

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "drape/base/error.hpp"
+#include "exr_depth.hpp"
 #include "picture_codec.hpp"
 #include "picture_header.hpp"
 #include "scan_builder.hpp"
@@ -14,8 +15,11 @@ std::vector<RangeScan> read_depth_scan(const ScanSource& source) {
     throw input_error("{}: a depth picture needs input.depth: focal_px or K, and depth: z or range",
                       source.file);
   const DepthCamera& camera = *source.options.depth;
-  (void)read_picture_header(source.file, source.bytes);
-  const ImageF depth = decode_depth(source.file, source.bytes);
+  const ImageF depth = [&] {
+    if (looks_like_exr(source.bytes)) return decode_exr_depth(source.file, source.bytes);
+    (void)read_picture_header(source.file, source.bytes);
+    return decode_depth(source.file, source.bytes);
+  }();
   const double cx = camera.center_px ? camera.center_px->x() : depth.width() / 2.0;
   const double cy = camera.center_px ? camera.center_px->y() : depth.height() / 2.0;
   ScanBuilder builder(source.file, {}, source.options.most_points);

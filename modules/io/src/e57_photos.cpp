@@ -1,5 +1,6 @@
 // The photos of an E57 file (ASTM E2807): images2D.
 #include <cmath>
+#include <iterator>
 
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
@@ -57,6 +58,15 @@ std::vector<EmbeddedPhoto> read_embedded_photos(const std::filesystem::path& pat
     if (pinhole) photo.camera = camera_of(file, picture, pinhole, photo.pixels);
   }
   return photos;
+}
+
+std::size_t count_embedded_photos(const std::filesystem::path& path) {
+  const FileBytes bytes(path);
+  if (!looks_like_e57(bytes.view())) return 0;
+  const std::string file = path.string();
+  const E57Document document(file, bytes.view());
+  const auto pictures = document.root().child("images2D").children("vectorChild");
+  return static_cast<std::size_t>(std::distance(pictures.begin(), pictures.end()));
 }
 
 }  // namespace drape::io

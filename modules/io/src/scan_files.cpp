@@ -61,7 +61,8 @@ constexpr std::array<ScanFormat, 11> formats{{
       "colour, reflectance, pose, scanner position", false},
      no_signature,
      read_3dtk_scan},
-    {{"depth picture", "png tif tiff", "16-bit or float, with input.depth", "grid, camera position", false},
+    {{"depth picture", "png tif tiff exr",
+      "16-bit or float, with input.depth; OpenEXR's channel Z, V, Y or R", "grid, camera position", false},
      no_signature,
      read_depth_scan},
     {{"OBJ", "obj", "the vertices", "normals, colour", false}, no_signature, read_mesh_scan},
@@ -83,10 +84,6 @@ const ScanFormat& format_of(const std::filesystem::path& file, std::string_view 
   for (const ScanFormat& format : formats)
     if (format.recognises(bytes)) return format;
   const std::string ending = extension(file);
-  if (ending == "exr")
-    throw input_error(
-        "{}: OpenEXR pictures are not read; convert it to a float TIFF (oiiotool IN.exr -o OUT.tif)",
-        file.string());
   std::string known;
   for (const ScanFormat& format : formats) {
     if (has_extension(format.facts, ending)) return format;

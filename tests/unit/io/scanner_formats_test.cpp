@@ -226,6 +226,28 @@ TEST(DepthPicture, PointsLieOnTheirRays) {
   expect_problem("a.png", png, "needs input.depth");
 }
 
+TEST(DepthPicture, OpenExrGivesItsDepthChannel) {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> values{1.5F, 0, unknown, infinite, 1e10F, 0.25F};
+  io::ScanReadOptions options;
+  options.depth = io::DepthCamera{{2, 4}, Eigen::Vector2d(1.5, 1), 1, false};
+  for (const std::string& bytes :
+       {test::depth_exr(3, 2, values, "Y"), test::depth_exr(3, 2, values, "View.Depth.Z", {"A", "R"}),
+        test::depth_exr(3, 2, values, "R", {"A", "B", "G"})}) {
+    const RangeScan scan = scans_of("a.exr", bytes, options).at(0);
+    ASSERT_EQ(scan.cloud.size(), 2U);
+    EXPECT_EQ(scan.grid->cells, (std::vector<std::int32_t>{0, -1, -1, -1, -1, 1}));
+    expect_near(scan.cloud.positions[0], {-1.5 * 0.5, -1.5 * 0.125, 1.5});
+    expect_near(scan.cloud.positions[1], {0.25 * 0.5, 0.25 * 0.125, 0.25});
+  }
+  EXPECT_NE(error_message(
+                ErrorCode::input,
+                [&] { (void)io::parse_scans("a.exr", test::depth_exr(3, 2, values, "x", {"A"}), options); })
+                .find("none of its channels (OpenEXR: \"A\" \"x\") is depth"),
+            std::string::npos);
+}
+
 TEST(MeshAsScan, GivesItsVertices) {
   const RangeScan scan = scans_of("a.obj", "v 1 2 3\nv 4 5 6\nv 7 8 10\nf 1 2 3\n").at(0);
   ASSERT_EQ(scan.cloud.size(), 3U);

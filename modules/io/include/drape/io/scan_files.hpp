@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/camera.hpp"
 #include "drape/geometry/image.hpp"
 #include "drape/geometry/range_scan.hpp"
@@ -67,6 +69,20 @@ struct ScanFormatFacts {
 [[nodiscard]] std::vector<RangeScan> parse_scans(const std::filesystem::path& file, std::string_view bytes,
                                                  const ScanReadOptions& options = {});
 
+/// A large scan by its header and a part of its points.
+struct ScanSample {
+  std::uint64_t points = 0;               // of the whole file
+  RangeScan scan;                         // runs of consecutive points of the file, one after the other
+  std::size_t run_points = 0;             // of a run, as the file has them
+  std::optional<BoundingBox> stated_box;  // what the header says of all points
+  int rows = 0;                           // of the grid; 0: none
+  int columns = 0;
+};
+/// What can be told of a file without reading it whole: 262,144 points from 1,024 places. Nothing where the
+/// format has no records of one size (only binary PLY without faces, binary PCD and LAS have), where the file
+/// is small, or where its counts do not fit its bytes: then read_scans.
+[[nodiscard]] std::optional<ScanSample> sample_scan(const std::filesystem::path& file);
+
 /// A photo that a scan file carries.
 struct EmbeddedPhoto {
   Image8 pixels;  // RGB or grey
@@ -76,6 +92,8 @@ struct EmbeddedPhoto {
 /// The photos of an E57 (JPEG or PNG; pinhole pictures and visual references, not those that cover a sphere
 /// or a cylinder), in its order; none of another format. Error{input} as read_scans.
 [[nodiscard]] std::vector<EmbeddedPhoto> read_embedded_photos(const std::filesystem::path& file);
+/// How many pictures an E57 says that it carries, of any form; 0 for another format.
+[[nodiscard]] std::size_t count_embedded_photos(const std::filesystem::path& file);
 
 /// Whether a file's name says that it holds poses of scans: .conf, .aln, .mlp.
 [[nodiscard]] bool is_pose_file(const std::filesystem::path& file);
