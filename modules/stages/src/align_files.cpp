@@ -85,6 +85,26 @@ std::optional<Camera> shown_camera(const pipeline::PhotoInput& photo, std::optio
   }
 }
 
+// What a scan file states of a photo's place may be wrong, or told in another frame than the registered
+// scans have: then the photo is searched like any other.
+alignment::Alignment aligned_by_search(const TriangleMesh& mesh, const PhotoToAlign& photo,
+                                       const pipeline::Input& input, const alignment::AlignOptions& options,
+                                       std::uint64_t seed, const Progress& progress) {
+  const auto align = [&](const PhotoToAlign& one, const Progress& part) {
+    return alignment::align_photo(mesh, evidence_of(one, options, input), options, seed, part);
+  };
+  if (!photo.stated) return align(photo, progress);
+  alignment::Alignment near = align(photo, progress.part(0, 0.5));
+  if (near.verdict == alignment::Verdict::accept) {
+    near.reasons.push_back("found near the place that the scan file states");
+    return near;
+  }
+  PhotoToAlign unstated = photo;
+  unstated.stated.reset();
+  alignment::Alignment anywhere = align(unstated, progress.part(0.5, 1));
+  return anywhere.verdict == alignment::Verdict::accept ? anywhere : near;
+}
+
 }  // namespace
 
 io::CameraRecord to_record(const alignment::Alignment& alignment, const std::string& method) {
@@ -137,6 +157,13 @@ alignment::PhotoEvidence evidence_of(const PhotoToAlign& given, const alignment:
       shown_camera(told, evidence.focal_px_prior, given.frame, stencil.width(), stencil.height());
   if (!evidence.initial_camera)
     evidence.initial_camera = initial_camera(options, index, stencil.width(), stencil.height());
+  if (given.stated) {
+    if (!evidence.lens) {
+      evidence.lens = alignment::KnownLens{given.stated->K, {}};
+      evidence.focal_px_prior = given.stated->K(0, 0);
+    }
+    if (!evidence.initial_camera) evidence.initial_camera = given.stated;
+  }
   evidence.up = Eigen::Vector3d(input.up == 'x', input.up == 'y', input.up == 'z');
   return evidence;
 }
@@ -154,8 +181,7 @@ AlignedPhoto write_alignment_files(const TriangleMesh& mesh, const PhotoToAlign&
   } else if (by_stencil && !shows_object(stencil)) {
     aligned.record = rejected(stencil, method_name(options));
   } else {
-    const alignment::Alignment alignment =
-        alignment::align_photo(mesh, evidence_of(given, options, input), options, seed, progress);
+    const alignment::Alignment alignment = aligned_by_search(mesh, given, input, options, seed, progress);
     aligned.record = to_record(alignment, method_name(options));
     aligned.metrics = alignment.metrics;
     if (!alignment.stencil.empty()) stencil = alignment.stencil;

@@ -7,6 +7,7 @@
 #include "drape/alignment/align.hpp"
 #include "drape/alignment/shared_focal.hpp"
 #include "drape/base/random.hpp"
+#include "drape/geometry/bounding_box.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/io/records.hpp"
@@ -44,7 +45,24 @@ Image<std::int32_t> painted_labels(const Image8& picture) {
   return labels;
 }
 
-PhotoToAlign photo_to_align(std::size_t index, const io::WorkspaceFrame& frame,
+// The camera of a photo that came out of a scan file, as that file states it: for the photo with the same
+// pixels, whatever its name is now. Nothing where it does not see the mesh from outside.
+std::optional<Camera> stated_camera(const io::Photo& photo, const io::WorkspaceFrame& frame,
+                                    const BoundingBox& box, const pipeline::StageRun& run) {
+  if (!run.has_artifact("ingest", "photos/cameras.json")) return std::nullopt;
+  const io::CamerasRecord record = io::read_cameras(run.artifact("ingest", "photos/cameras.json"));
+  for (const io::CameraRecord& stated : record.cameras) {
+    if (stated.camera.width != photo.rgb.width() || stated.camera.height != photo.rgb.height()) continue;
+    const io::Photo carried = io::read_photo(run.artifact("ingest", "photos/" + stated.photo));
+    if (carried.rgb.data() != photo.rgb.data()) continue;
+    Camera here = stated.camera;
+    here.camera_from_world.translate(Eigen::Vector3d(frame.world_offset_m - record.frame.world_offset_m));
+    if ((here.camera_from_world * box.center()).z() > 0.6 * box.diagonal().norm()) return here;
+  }
+  return std::nullopt;
+}
+
+PhotoToAlign photo_to_align(std::size_t index, const TriangleMesh& mesh, const io::WorkspaceFrame& frame,
                             const alignment::AlignOptions& options, const pipeline::StageRun& run) {
   const std::string folder = three_digits(index);
   PhotoToAlign photo;
@@ -56,6 +74,7 @@ PhotoToAlign photo_to_align(std::size_t index, const io::WorkspaceFrame& frame,
     photo.segments = painted_labels(io::read_photo(run.artifact("segment", folder + "/segments.png")).rgb);
   photo.index = index;
   photo.frame = frame;
+  photo.stated = stated_camera(photo.photo, frame, bounding_box(mesh.vertices), run);
   return photo;
 }
 
@@ -67,7 +86,7 @@ std::optional<double> focal_of_all(const TriangleMesh& mesh, const io::Workspace
   std::vector<alignment::Alignment> alone;
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i].given || known[i].by_block) continue;
-    const PhotoToAlign photo = photo_to_align(i, frame, options, run);
+    const PhotoToAlign photo = photo_to_align(i, mesh, frame, options, run);
     const alignment::PhotoEvidence evidence = evidence_of(photo, options, run.input());
     if (evidence.lens || !shows_object(photo.stencil)) continue;
     const auto count = static_cast<double>(known.size());
@@ -87,7 +106,7 @@ io::CameraRecord align_one(std::size_t index, const TriangleMesh& mesh, const io
   const std::string name = input.image.filename().string();
   const std::string folder = three_digits(index);
   progress.update(0, name);
-  PhotoToAlign photo = photo_to_align(index, frame, options, run);
+  PhotoToAlign photo = photo_to_align(index, mesh, frame, options, run);
   photo.given = known.given;
   if (known.by_block) photo.given = to_record(*known.by_block, "block");
   alignment::AlignOptions own = options;
@@ -139,14 +158,13 @@ void run(const alignment::AlignOptions& options, pipeline::StageRun& run) {
 pipeline::Stage align_stage() {
   pipeline::Stage stage;
   stage.name = "align";
-  stage.version = 5;
+  stage.version = 6;
   stage.summary =
       "Finds each photo's camera by matching the mesh's outline with the photo's stencil or colours.";
   stage.input_parts = {"photos", "photo_cameras", "photo_regions", "cameras", "up"};
-  stage.reads = {{"fill", "mesh.ply"},
-                 {"fill", "holes.json"},
-                 {"segment", "*/stencil.png"},
-                 {"segment", "*/segments.json"},
+  stage.reads = {{"fill", "mesh.ply"},         {"fill", "holes.json"},
+                 {"ingest", "photos/*.png"},   {"ingest", "photos/cameras.json"},
+                 {"segment", "*/stencil.png"}, {"segment", "*/segments.json"},
                  {"segment", "*/segments.png"}};
   stage.writes = {"cameras.json", "*/stencil.png", "*/overlay.png"};
   stage.applies = [](const pipeline::Input& input) { return !input.photos.empty(); };

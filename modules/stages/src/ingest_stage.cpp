@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "cleaning_picture.hpp"
 #include "drape/base/error.hpp"
+#include "drape/base/files.hpp"
 #include "drape/base/log.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/ingest/clean_scan.hpp"
@@ -77,7 +79,10 @@ void take_photos_out(const io::WorkspaceFrame& frame, pipeline::StageRun& run) {
       record.reasons = {"stated by " + scan.file.filename().string()};
     }
   if (count == 0) return;
-  log::info("{} photos were taken out of the scan files: input.photos can name them", count);
+  log::info(
+      "{} photo(s) were taken out of the scan files, to photos/ in this stage's folder; name in input.photos "
+      "those to be draped: align then looks first where the scan file says that they were taken",
+      count);
   if (!cameras.cameras.empty()) io::write_cameras(run.output("photos/cameras.json"), cameras);
 }
 
@@ -168,6 +173,8 @@ void run(const ingest::CleanOptions& options, pipeline::StageRun& run) {
       throw input_error("{}: scan {} has no points left after cleaning; loosen the ingest options", scan.file,
                         scan.index_in_file);
     io::write_scan_ply(run.output("scans/" + three_digits(i) + ".ply"), scan);
+    write_file(run.output("cleaning/" + three_digits(i) + ".jpg"),
+               io::encode_image(cleaning_picture(scans[i], scan), "jpg", 88));
     io::ScanRecord& entry = record.scans.emplace_back();
     entry.file = scan.file;
     entry.index_in_file = scan.index_in_file;
@@ -193,10 +200,10 @@ void run(const ingest::CleanOptions& options, pipeline::StageRun& run) {
 pipeline::Stage ingest_stage() {
   pipeline::Stage stage;
   stage.name = "ingest";
-  stage.version = 4;
+  stage.version = 5;
   stage.summary = "Reads the scans, drops bad points, and finds oriented normals.";
   stage.input_parts = {"scans", "units"};
-  stage.writes = {"scans.json", "scans/*.ply", "photos/*.png", "photos/cameras.json"};
+  stage.writes = {"scans.json", "scans/*.ply", "cleaning/*.jpg", "photos/*.png", "photos/cameras.json"};
   stage.applies = [](const pipeline::Input& input) { return !input.scans.empty(); };
   stage.instantiate = pipeline::stage_body(run);
   return stage;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "drape/base/files.hpp"
 #include "drape/io/mesh_files.hpp"
@@ -50,6 +51,37 @@ report::ViewStyle views_for(const pipeline::Config& config) {
              : config.input.up == 'y' ? Eigen::Vector3d::UnitY()
                                       : Eigen::Vector3d::UnitZ();
   return style;
+}
+
+// "12 mixed_pixel, 3 outlier", the most first.
+std::string dropped_text(const io::ScanRecord& scan) {
+  std::vector<std::pair<std::size_t, std::string>> counts;
+  for (const auto& [filter, count] : scan.dropped)
+    if (count > 0) counts.emplace_back(count, filter);
+  std::sort(counts.begin(), counts.end(), std::greater<>());
+  std::string text;
+  for (const auto& [count, filter] : counts)
+    text += (text.empty() ? "" : ", ") + fmt::format("{} {}", count, filter);
+  return text.empty() ? "nothing was dropped" : "dropped: " + text;
+}
+
+std::vector<report::Picture> cleaned_scans(const Results& results) {
+  constexpr std::size_t most_shown = 40;
+  const io::ScansRecord record = io::read_scans_record(results.file("ingest", "scans.json"));
+  std::vector<report::Picture> pictures;
+  for (std::size_t i = 0; i < std::min(record.scans.size(), most_shown); ++i) {
+    const fs::path file = results.file("ingest", "cleaning/" + three_digits(i) + ".jpg");
+    if (!fs::exists(file)) continue;
+    const io::ScanRecord& scan = record.scans[i];
+    pictures.push_back(
+        {fmt::format("Cleaning of {}{}", scan.file,
+                     scan.index_in_file > 0 ? fmt::format(" ({})", scan.index_in_file) : ""),
+         "The scan before and after cleaning, from the scanner and from the side",
+         fmt::format("Above: before, dropped points in red; below: after. {} points are left; {}.",
+                     scan.points, dropped_text(scan)),
+         read_file(file)});
+  }
+  return pictures;
 }
 
 std::vector<report::Picture> scans_together(const Results& results) {
@@ -200,6 +232,7 @@ std::vector<report::Picture> coverage(const Results& results) {
 std::vector<report::Picture> stage_pictures(const std::string& stage, const pipeline::Config& config,
                                             const pipeline::RunResult& result) {
   const Results results(config, result);
+  if (stage == "ingest") return cleaned_scans(results);
   if (stage == "register") return scans_together(results);
   if (stage == "mesh" || stage == "fill") return mesh_from_sides(results, stage);
   if (stage == "segment") return segments_of_photos(results);

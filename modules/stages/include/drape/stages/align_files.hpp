@@ -22,6 +22,8 @@ struct PhotoToAlign {
   io::WorkspaceFrame frame{};               // of the mesh
   std::size_t index = 0;                    // in the input's photos
   std::optional<io::CameraRecord> given{};  // a camera that is kept as it is
+  std::optional<Camera>
+      stated{};  // by the scan file that carries the photo: its lens, and a hint at its place
 };
 
 [[nodiscard]] bool shows_object(const Image8& stencil);
@@ -40,7 +42,8 @@ struct AlignedPhoto {
   std::optional<alignment::AlignmentMetrics> metrics;
 };
 
-/// Finds the photo's camera and writes stencil.png, the final one, and overlay.png into `folder`, which must
+/// Finds the photo's camera (where a scan file states one, near that at first, and anywhere if that does not
+/// hold) and writes stencil.png, the final one, and overlay.png into `folder`, which must
 /// be there. A photo whose stencil shows no object is rejected where nothing but the stencil is asked. Errors
 /// as those of align_photo.
 [[nodiscard]] AlignedPhoto write_alignment_files(const TriangleMesh& mesh, const PhotoToAlign& photo,
