@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@
 #include "drape/base/numbers.hpp"
 #include "drape/base/random.hpp"
 #include "drape/ingest/clean_scan.hpp"
+#include "peer_programs.hpp"
+#include "support.hpp"
 
 namespace drape {
 namespace {
@@ -93,6 +96,35 @@ void measure_pcl(std::size_t thousands) {
   fmt::print("; {} outlier\n", before - kept->size());
 }
 
+// The same by programs of their own, with reading and writing their files.
+void measure_programs(std::size_t thousands) {
+  const RangeScan scan = waves(thousands, false);
+  const ingest::CleanOptions options;
+  const test::ScratchFolder folder;
+  test::write_peer_cloud(folder / "a.pcd", scan.cloud.positions);
+  test::write_peer_cloud(folder / "a.xyz", scan.cloud.positions);
+  const std::string in_folder = "cd " + folder.path().string() + " && ";
+  const auto measure_one = [&](const char* program, const char* name, const std::string& command,
+                               const char* result) {
+    if (!test::is_installed(program)) return fmt::print("{}: skipped, not installed\n", program);
+    const auto run = test::run_peer(in_folder + command);
+    if (!run || !std::filesystem::exists(folder / result)) return fmt::print("{}: failed\n", program);
+    print_cost(scan.cloud.size(), name, {run->seconds, run->cpu_seconds});
+    fmt::print("\n");
+  };
+  measure_one("pcl_outlier_removal", "pcl-tools",
+              fmt::format("pcl_outlier_removal a.pcd b.pcd -method statistical -mean_k {} -std_dev_mul {} && "
+                          "pcl_normal_estimation b.pcd c.pcd -k 21",
+                          options.outlier_neighbors, options.outlier_sigma),
+              "c.pcd");
+  measure_one(
+      "CloudCompare", "CloudCompare",
+      fmt::format("CloudCompare -SILENT -NO_TIMESTAMP -AUTO_SAVE OFF -C_EXPORT_FMT PLY -O a.xyz -SOR {} {} "
+                  "-OCTREE_NORMALS auto -SAVE_CLOUDS FILE d.ply",
+                  options.outlier_neighbors, options.outlier_sigma),
+      "d.ply");
+}
+
 }  // namespace
 }  // namespace drape
 
@@ -107,6 +139,7 @@ int main(int count, char** texts) {
   for (const std::size_t size : sizes) {
     for (const bool grid : {false, true}) drape::measure(size, grid);
     drape::measure_pcl(size);
+    drape::measure_programs(size);
   }
   return 0;
 }

@@ -13,6 +13,7 @@
 #include "drape/base/parallel.hpp"
 #include "drape/io/scan_files.hpp"
 #include "drape/registration/register_scans.hpp"
+#include "peer_programs.hpp"
 #include "program_arguments.hpp"
 #include "support.hpp"
 
@@ -49,6 +50,52 @@ pcl::PointCloud<pcl::PointXYZ>::Ptr to_pcl(const PointCloud& cloud) {
   for (const auto& p : cloud.positions)
     result->emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
   return result;
+}
+
+Error error_of(const std::vector<Eigen::Vector3d>& found, const Rigid3& truth, const PointCloud& cloud) {
+  const auto count = static_cast<Eigen::Index>(std::min(found.size(), cloud.size()));
+  const Eigen::Map<const Eigen::Matrix3Xd> from(cloud.positions[0].data(), 3, count);
+  const Eigen::Map<const Eigen::Matrix3Xd> to(found[0].data(), 3, count);
+  Rigid3 motion;
+  motion.matrix() = Eigen::umeyama(from, to, false);
+  return error_of(motion, truth, cloud);
+}
+
+void print_peer(const char* name, const std::optional<test::PeerRun>& run,
+                const std::filesystem::path& result, const Rigid3& truth, const PointCloud& cloud) {
+  if (!run || !std::filesystem::exists(result)) return fmt::print("{:<28} failed\n", name);
+  const PointCloud found = io::read_scans(result)[0].cloud;
+  if (found.size() != cloud.size()) return fmt::print("{:<28} lost points\n", name);
+  const Error error = error_of(found.positions, truth, cloud);
+  fmt::print("{:<28} {:.3f} s  {:.3f} deg  {:.3f} mm\n", name, run->cpu_seconds, error.degrees,
+             error.millimetres);
+}
+
+// Programs of their own, which read and write files too: from the same start, on the same points.
+void compare_programs(const RangeScan& target, const RangeScan& source, const Rigid3& guess,
+                      const Rigid3& truth) {
+  const test::ScratchFolder folder;
+  std::vector<Eigen::Vector3d> moved;
+  for (const auto& p : source.cloud.positions) moved.push_back(guess * p);
+  test::write_peer_cloud(folder / "target.pcd", target.cloud.positions);
+  test::write_peer_cloud(folder / "source.pcd", moved);
+  test::write_peer_cloud(folder / "target.xyz", target.cloud.positions);
+  test::write_peer_cloud(folder / "source.xyz", moved);
+  const std::string in_folder = "cd " + folder.path().string() + " && mkdir -p out && cd out && ";
+  if (test::is_installed("CloudCompare"))
+    print_peer(
+        "CloudCompare -ICP (process)",
+        test::run_peer(in_folder + "CloudCompare -SILENT -NO_TIMESTAMP -C_EXPORT_FMT PLY -O ../source.xyz -O "
+                                   "../target.xyz -ICP -OVERLAP 60 && mv ../source_REGISTERED.ply cc.ply"),
+        folder / "out/cc.ply", truth, source.cloud);
+  else
+    fmt::print("CloudCompare                 skipped: not installed\n");
+  if (test::is_installed("pcl_icp"))
+    print_peer("pcl_icp (process)",
+               test::run_peer(in_folder + "pcl_icp -d 0.01 -i 50 ../target.pcd ../source.pcd"),
+               folder / "out/source.pcd", truth, source.cloud);
+  else
+    fmt::print("pcl_icp                      skipped: not installed\n");
 }
 
 void compare() {
@@ -91,6 +138,7 @@ void compare() {
   fmt::print("PCL GICP  {:.3f} s  {:.3f} deg  {:.3f} mm\n", their_seconds, their_error.degrees,
              their_error.millimetres);
   fmt::print("drape takes 1/{:.1f} of the time\n", their_seconds / our_seconds);
+  compare_programs(scans[0], scans[1], guess, truth);
 }
 
 }  // namespace
