@@ -147,7 +147,6 @@ TEST(BugClasses, IndexOutOfRange) {
        As::scan},
       {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 999999//1 2 3\n"},
       {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n"},
-      {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/7 2/7 3/7\n"},
       {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n"},
       {"a.off", "OFF\n3 1 0\n" + corners + "3 0 1 3\n"},
       {"a.off", "OFF\n3 1 0\n" + corners + "3 0 1 -1\n"},
