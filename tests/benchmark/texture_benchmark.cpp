@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <string_view>
 
 #include "painted_object.hpp"
@@ -32,7 +33,23 @@ int main(int count, char** arguments) {
   rusage before{};
   getrusage(RUSAGE_SELF, &before);
   const auto start = std::chrono::steady_clock::now();
-  const texturing::TextureResult result = texturing::texture_mesh(mesh, mesh, views, {});
+  std::string doing;
+  auto since = start;
+  std::string phases;
+  const auto tick = [&](std::string_view next) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!doing.empty())
+      phases += fmt::format("  {:6.2f} s  {}\n", std::chrono::duration<double>(now - since).count(), doing);
+    doing = next;
+    since = now;
+  };
+  const Progress progress(
+      [&](double, std::string_view what) {
+        if (!what.empty() && what != doing) tick(what);
+      },
+      nullptr);
+  const texturing::TextureResult result = texturing::texture_mesh(mesh, mesh, views, {}, progress);
+  tick("");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rusage after{};
   getrusage(RUSAGE_SELF, &after);
@@ -47,5 +64,6 @@ int main(int count, char** arguments) {
       shots.size(), width, height, mesh.faces.size(), result.model.mesh.faces.size(),
       result.atlas_coverage.size(), seconds, cpu(after) - cpu(before), after.ru_maxrss / 1024,
       before.ru_maxrss / 1024);
+  fmt::print("{}", phases);
   return 0;
 }

@@ -100,9 +100,11 @@ class PagePainter {
     });
     pixels_ = pull_pushed(std::move(pixels_));
     AtlasPage page{Image8(side_, side_, 3), std::move(coverage_)};
-    for (int y = 0; y < side_; ++y)
-      for (int x = 0; x < side_; ++x)
-        for (int c = 0; c < 3; ++c) page.color.at(x, y, c) = byte_from_linear(pixels_.at(x, y)[c]);
+    parallel_for(static_cast<std::size_t>(side_), band_rows, [&](std::size_t begin, std::size_t end) {
+      for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+        for (int x = 0; x < side_; ++x)
+          for (int c = 0; c < 3; ++c) page.color.at(x, y, c) = byte_from_linear(pixels_.at(x, y)[c]);
+    });
     return page;
   }
 

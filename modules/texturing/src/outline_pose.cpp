@@ -11,7 +11,6 @@ namespace {
 
 constexpr int most_side = 1024;  // of the pictures that are drawn here
 constexpr int most_drawings = 6;
-constexpr double negligible_px = 0.12;  // outlines this close need no other camera
 constexpr double settled_px = 0.03;
 constexpr double outline_sigma_px = 0.5;
 constexpr double correlated_px = 8;  // errors of stencils go on along the outline for so long
@@ -129,8 +128,10 @@ OutlinePose pose_on_outline(rendering::Renderer& renderer, const Camera& camera,
   double least_miss = 0;
   double first_miss = 0;
   std::vector<RimPoint> first_rim;
+  rendering::DepthMap best_map;
   for (int drawing = 0; drawing < most_drawings; ++drawing) {
-    const std::vector<RimPoint> rim = rim_of(renderer.depth_map(now).depth, now, outline);
+    rendering::DepthMap map = renderer.depth_map(now);
+    const std::vector<RimPoint> rim = rim_of(map.depth, now, outline);
     if (rim.size() < least_points) return out;
     const double miss = mean_miss(rim, now, photo, most);
     const PoseFrame frame(now, middle);
@@ -141,13 +142,16 @@ OutlinePose pose_on_outline(rendering::Renderer& renderer, const Camera& camera,
     if (drawing == 0) {
       first_rim = rim;
       first_miss = miss;
+      out.miss_px = miss / factor;
+      if (factor == 1) out.map = map;
     }
     if (drawing == 0 || miss < least_miss) {
       least_miss = miss;
       best = now;
       out.hold = normal;
+      best_map = std::move(map);
     }
-    if (drawing == 0 && miss < negligible_px) return out;
+    if (drawing == 0 && miss < negligible_miss_px) return out;
     const PoseStep step = (normal + prior_on_steps()).ldlt().solve(right);
     const Camera next = frame.moved(step);
     const double moved = farthest_moved(rim, now, next);
@@ -161,6 +165,8 @@ OutlinePose pose_on_outline(rendering::Renderer& renderer, const Camera& camera,
   out.camera = best;
   if (factor != 1) out.camera = best.resized(camera.width, camera.height);
   out.moved_px = moved;
+  out.miss_px = least_miss / factor;
+  if (factor == 1) out.map = std::move(best_map);
   return out;
 }
 

@@ -79,15 +79,20 @@ Look Looker::look(const Corners& corners, std::uint32_t source, int view) const 
   }
   const int n =
       static_cast<int>(std::clamp(std::ceil(found.longest_px / sample_px), 1.0, double{most_samples}));
+  const Eigen::Vector3d& face_normal = normals_.of_face(source);
+  std::array<Eigen::Vector3d, 3> leaning;
+  for (std::size_t k = 0; k < 3; ++k) leaning[k] = normals_.unscaled_at(source, corners[k]);
   const auto sample = [&](double i, double j) {  // in steps of 1 / n along two edges
     const Eigen::Vector3d x =
         corners[0] + (i / n) * (corners[1] - corners[0]) + (j / n) * (corners[2] - corners[0]);
-    const std::uint8_t level = at(x, source, view);
+    const Eigen::Vector3d normal =
+        (leaning[0] + (i / n) * (leaning[1] - leaning[0]) + (j / n) * (leaning[2] - leaning[0])).normalized();
+    const std::uint8_t level = s.sees(x, normal, face_normal);
     ++found.samples;
     if (level == trust::none) return;
     ++found.painted;
     if (level == trust::full) ++found.full;
-    found.cosine += normals_.at(source, x).dot(s.camera().towards_camera(x));
+    found.cosine += normal.dot(s.camera().towards_camera(x));
   };
   for (int i = 0; i < n; ++i)
     for (int j = 0; i + j < n; ++j) {

@@ -17,6 +17,7 @@ constexpr std::size_t most_points = 30000;
 constexpr std::array<double, 3> blurs_px = {3, 1.5, 0.8};
 constexpr int most_turns = 8;  // at each blur
 constexpr double settled_px = 0.02;
+constexpr double negligible_px = 0.12;   // photos this close need no other cameras
 constexpr double least_cosine = 0.3;     // flatter sight is too coarse to compare
 constexpr int border_px = 4;             // inside the stencil and away from edges in depth
 constexpr double correlated_points = 4;  // neighbouring points see the same errors
@@ -58,6 +59,7 @@ std::vector<SurfacePoint> spread_points(const TriangleMesh& mesh) {
 // Log of the luminance at one blur, with its slopes.
 class Picture {
  public:
+  Picture() = default;
   Picture(const cv::Mat& log_light, double blur_px) {
     cv::GaussianBlur(log_light, values_, {}, blur_px);
     cv::Mat across;
@@ -213,8 +215,12 @@ class Agreement {
                                                   std::max(1, static_cast<int>(view.camera.height * factor)));
       m.camera = m.given;
       moving_.push_back(std::move(m));
-      lights_.push_back(log_light_of(view.rgb, moving_.back().given.width, moving_.back().given.height));
     }
+    lights_.resize(views.size());
+    parallel_for(views.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v)
+        lights_[v] = log_light_of(views[v].rgb, moving_[v].given.width, moving_[v].given.height);
+    });
   }
 
   // The typical difference before and after, at the finest blur.
@@ -222,6 +228,9 @@ class Agreement {
     set_blur(blurs_px.back());
     sample();
     const double before = typical_difference();
+    const std::vector<Moving> given = moving_;
+    if (step() < negligible_px) return {before, before};
+    moving_ = given;
     for (std::size_t level = 0; level < blurs_px.size(); ++level) {
       set_blur(blurs_px[level]);
       for (int turn = 0; turn < most_turns; ++turn) {
@@ -249,8 +258,10 @@ class Agreement {
 
  private:
   void set_blur(double blur_px) {
-    pictures_.clear();
-    for (const cv::Mat& light : lights_) pictures_.emplace_back(light, blur_px);
+    pictures_.resize(lights_.size());
+    parallel_for(lights_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) pictures_[v] = Picture(lights_[v], blur_px);
+    });
   }
 
   void sample() {

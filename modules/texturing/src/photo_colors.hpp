@@ -9,6 +9,7 @@ namespace drape::texturing {
 
 class PhotoColors {
  public:
+  PhotoColors() = default;
   /// Grown within the box of the pixels that may be used and a margin for filters.
   PhotoColors(const Image8& rgb, const Image8& trusted);
 
@@ -18,7 +19,7 @@ class PhotoColors {
   [[nodiscard]] Eigen::Vector3f smooth_at(const Eigen::Vector2d& pixel) const;
 
  private:
-  PixelBox box_;
+  PixelBox box_{};
   Image8 grown_;
 };
 

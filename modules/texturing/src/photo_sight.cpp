@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -66,21 +67,33 @@ bool PhotoSight::hidden(const Camera::Projected& seen, const Eigen::Vector3d& po
   const double scale_y = static_cast<double>(camera_.height) / depth_.height();
   const int left = static_cast<int>(std::floor(seen.pixel.x() / scale_x - 0.5));
   const int top = static_cast<int>(std::floor(seen.pixel.y() / scale_y - 0.5));
+  // n . X = n . x in the camera's frame: along the rays of a perspective camera, depth times -n . ray is -n .
+  // x; of an orthographic one, the ray gives X and Y. Both are linear in the pixel.
   const Eigen::Vector3d x_in_camera = camera_.camera_from_world * point;
-  const auto depth_of_plane = [&](const Eigen::Vector3d& normal_in_world, const Eigen::Vector3d& ray) {
-    const Eigen::Vector3d n = camera_.camera_from_world.linear() * normal_in_world;
-    const double offset = n.dot(x_in_camera);
-    return camera_.projection == Camera::Projection::perspective
-               ? offset / n.dot(ray)
-               : (offset - n.head<2>().dot(ray.head<2>())) / n.z();
+  const bool perspective = camera_.projection == Camera::Projection::perspective;
+  const Eigen::Matrix3d ray_of = camera_from_pixel_ * Eigen::Vector3d(scale_x, scale_y, 1).asDiagonal();
+  struct Plane {
+    Eigen::Vector3d lean;  // by the pixel
+    double offset;
+    double slope;  // depth counts so much, if orthographic
   };
+  const auto plane_of = [&](const Eigen::Vector3d& normal_in_world) {
+    const Eigen::Vector3d n = camera_.camera_from_world.linear() * normal_in_world;
+    const Eigen::Vector3d by_ray = perspective ? n : Eigen::Vector3d(n.x(), n.y(), 0);
+    return Plane{-(ray_of.transpose() * by_ray), -n.dot(x_in_camera), -n.z()};
+  };
+  const std::array<Plane, 2> planes = {plane_of(normal), plane_of(face_normal)};
   for (int y = std::max(0, top - 1); y <= std::min(top + 2, depth_.height() - 1); ++y)
     for (int x = std::max(0, left - 1); x <= std::min(left + 2, depth_.width() - 1); ++x) {
-      if (!(depth_.at(x, y) < seen.depth + tolerance)) continue;  // behind, or nothing there
-      const Eigen::Vector3d ray =
-          camera_from_pixel_ * Eigen::Vector3d((x + 0.5) * scale_x, (y + 0.5) * scale_y, 1);
-      const double plane = std::min(depth_of_plane(normal, ray), depth_of_plane(face_normal, ray));
-      if (depth_.at(x, y) < plane - tolerance) return true;
+      const double depth = depth_.at(x, y) + tolerance;
+      if (!(depth < seen.depth + 2 * tolerance)) continue;  // behind, or nothing there
+      const Eigen::Vector3d pixel(x + 0.5, y + 0.5, 1);
+      const auto before = [&](const Plane& p) {
+        const double lean = p.lean.dot(pixel);
+        return perspective ? lean > 0 && depth * lean < p.offset
+                           : p.slope > 0 && depth * p.slope + lean < p.offset;
+      };
+      if (before(planes[0]) && before(planes[1])) return true;
     }
   return false;
 }

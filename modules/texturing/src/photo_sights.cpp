@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "drape/base/parallel.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "outline_pose.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double least_tolerance = 1e-5;  // of the mesh's extent
 constexpr double most_pose_erosion_px = 6;
+constexpr std::size_t views_per_renderer = 4;
 constexpr double same_depth_px = 0.1;  // cameras this close see the same depth
 
 bool same_surface(const TriangleMesh& a, const TriangleMesh& b) {
@@ -36,9 +38,10 @@ Image8 stencil_of(const ImageF& depth, const Camera& camera) {
 
 // One usable view while its camera is found.
 struct Posed {
-  std::size_t view;
+  std::size_t view = 0;
   OutlinePose pose;
   double moved_px = 0;
+  double agreed_px = 0;  // moved by the photos' agreement
   ImageF depth;
   double tolerance = 0;
 };
@@ -64,24 +67,11 @@ class Poser {
     return p;
   }
 
-  // The photos together; cameras that move are drawn anew.
-  void agree(std::vector<Posed>& posed, const Progress& progress) {
-    std::vector<AgreementView> together;
-    for (const Posed& p : posed)
-      together.push_back({views_[p.view].rgb, views_[p.view].stencil, p.pose.camera, p.depth, p.pose.hold});
-    const AgreeingCameras agreeing = agreeing_cameras(simplified_, together, options_.pose_max_px, progress);
-    for (std::size_t i = 0; i < posed.size(); ++i) {
-      if (!(agreeing.moved_px[i] > 0)) continue;
-      posed[i].pose.camera = agreeing.cameras[i];
-      posed[i].moved_px = std::max(posed[i].moved_px, agreeing.moved_px[i]);
-      if (agreeing.moved_px[i] > same_depth_px) look(posed[i]);
-    }
-  }
-
- private:
+  /// What the camera sees, as it is now.
   void look(Posed& p) {
     const Camera camera = depth_camera(p.pose.camera);
-    rendering::DepthMap map = full_renderer_.depth_map(camera);
+    rendering::DepthMap map = p.pose.map ? std::move(*p.pose.map) : full_renderer_.depth_map(camera);
+    p.pose.map.reset();
     p.tolerance = least_tolerance * box_.diagonal().norm();
     if (simplified_renderer_)
       p.tolerance = std::max(
@@ -89,6 +79,7 @@ class Poser {
     p.depth = std::move(map.depth);
   }
 
+ private:
   const TriangleMesh& simplified_;
   const TriangleMesh& full_;
   std::span<const TextureView> views_;
@@ -98,6 +89,43 @@ class Poser {
   std::optional<rendering::Renderer> simplified_renderer_;
 };
 
+// The photos together; cameras that move are drawn anew.
+void agree(const TriangleMesh& simplified, const TriangleMesh& full, std::span<const TextureView> views,
+           const TextureOptions& options, std::vector<Posed>& posed, const Progress& progress) {
+  std::vector<AgreementView> together;
+  for (const Posed& p : posed)
+    together.push_back({views[p.view].rgb, views[p.view].stencil, p.pose.camera, p.depth, p.pose.hold});
+  const AgreeingCameras agreeing = agreeing_cameras(simplified, together, options.pose_max_px, progress);
+  std::optional<Poser> poser;
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    if (!(agreeing.moved_px[i] > 0)) continue;
+    posed[i].pose.camera = agreeing.cameras[i];
+    posed[i].agreed_px = agreeing.moved_px[i];
+    posed[i].moved_px = std::max(posed[i].moved_px, agreeing.moved_px[i]);
+    if (agreeing.moved_px[i] <= same_depth_px) continue;
+    if (!poser) poser.emplace(simplified, full, views, options);
+    poser->look(posed[i]);
+  }
+}
+
+PhotoSight sight_of(Posed& p, std::span<const TextureView> views, const TextureOptions& options,
+                    double& warp_px) {
+  const TextureView& view = views[p.view];
+  SnappedOutline snapped;
+  const bool close = p.pose.miss_px < negligible_miss_px && p.agreed_px == 0;
+  if (options.warp_max_px > 0 && !view.stencil.empty() && !close)
+    snapped = snapped_outline(stencil_of(p.depth, view.camera), view.stencil, options.warp_max_px);
+  const double erode_px =
+      options.stencil_erode_px + std::min(most_pose_erosion_px, std::max(0.0, view.pose_sigma_px));
+  warp_px = snapped.largest_px;
+  return {p.pose.camera,
+          std::move(snapped.warp),
+          std::move(p.depth),
+          usable_pixels(view.stencil, view.rgb.width(), view.rgb.height(), erode_px, options.fill_px),
+          p.tolerance,
+          options.max_incidence_deg};
+}
+
 }  // namespace
 
 Sights sights_of(const TriangleMesh& simplified, const TriangleMesh& full, std::span<const TextureView> views,
@@ -106,27 +134,24 @@ Sights sights_of(const TriangleMesh& simplified, const TriangleMesh& full, std::
   for (std::size_t i = 0; i < views.size(); ++i)
     if (views[i].usable) out.views.push_back(i);
   if (out.views.empty()) return out;
-  Poser poser(simplified, full, views, options);
-  std::vector<Posed> posed;
-  for (std::size_t i = 0; i < out.views.size(); ++i) {
-    progress.update(0.6 * static_cast<double>(i) / static_cast<double>(out.views.size()),
-                    "drawing what the photos see");
-    posed.push_back(poser.posed(out.views[i]));
-  }
-  if (posed.size() > 1 && options.pose_max_px > 0) poser.agree(posed, progress.part(0.6, 0.9));
-  for (Posed& p : posed) {
-    const TextureView& view = views[p.view];
-    SnappedOutline snapped;
-    if (options.warp_max_px > 0 && !view.stencil.empty())
-      snapped = snapped_outline(stencil_of(p.depth, view.camera), view.stencil, options.warp_max_px);
-    const double erode_px =
-        options.stencil_erode_px + std::min(most_pose_erosion_px, std::max(0.0, view.pose_sigma_px));
-    out.poses_px.push_back(p.moved_px);
-    out.warps_px.push_back(snapped.largest_px);
-    out.sights.emplace_back(
-        p.pose.camera, std::move(snapped.warp), std::move(p.depth),
-        usable_pixels(view.stencil, view.rgb.width(), view.rgb.height(), erode_px, options.fill_px),
-        p.tolerance, options.max_incidence_deg);
+  progress.update(0, "drawing what the photos see");
+  std::vector<Posed> posed(out.views.size());
+  // A renderer is worth a few views, and each works alone.
+  parallel_for(posed.size(), views_per_renderer, [&](std::size_t begin, std::size_t end) {
+    Poser own(simplified, full, views, options);
+    for (std::size_t i = begin; i < end; ++i) posed[i] = own.posed(out.views[i]);
+  });
+  if (posed.size() > 1 && options.pose_max_px > 0)
+    agree(simplified, full, views, options, posed, progress.part(0.6, 0.8));
+  progress.update(0.8, "laying the outlines on each other");
+  std::vector<std::optional<PhotoSight>> sights(posed.size());
+  out.warps_px.resize(posed.size());
+  parallel_for(posed.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) sights[i] = sight_of(posed[i], views, options, out.warps_px[i]);
+  });
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    out.poses_px.push_back(posed[i].moved_px);
+    out.sights.push_back(std::move(*sights[i]));
   }
   return out;
 }

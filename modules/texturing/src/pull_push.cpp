@@ -3,15 +3,30 @@
 #include <algorithm>
 #include <utility>
 
+#include "drape/base/parallel.hpp"
+
 namespace drape::texturing {
 namespace {
 
+constexpr std::size_t rows_per_chunk = 16;
+
+template <class Body>
+void for_rows(int height, Body body) {
+  parallel_for(static_cast<std::size_t>(height), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
+  });
+}
+
 WeightedPixels pulled(const WeightedPixels& fine) {
   WeightedPixels coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
-  for (int y = 0; y < fine.height; ++y)
-    for (int x = 0; x < fine.width; ++x) coarse.at(x / 2, y / 2) += fine.at(x, y);
-  for (Eigen::Vector4f& p : coarse.pixels)
-    if (p.w() > 1) p /= p.w();
+  for_rows(coarse.height, [&](int row) {
+    for (int y = 2 * row; y < std::min(2 * row + 2, fine.height); ++y)
+      for (int x = 0; x < fine.width; ++x) coarse.at(x / 2, row) += fine.at(x, y);
+    for (int x = 0; x < coarse.width; ++x) {
+      Eigen::Vector4f& p = coarse.at(x, row);
+      if (p.w() > 1) p /= p.w();
+    }
+  });
   return coarse;
 }
 
@@ -29,13 +44,14 @@ Eigen::Vector4f between(const WeightedPixels& coarse, int x, int y) {
 }
 
 void push(const WeightedPixels& coarse, WeightedPixels& fine) {
-  for (int y = 0; y < fine.height; ++y)
+  for_rows(fine.height, [&](int y) {
     for (int x = 0; x < fine.width; ++x) {
       Eigen::Vector4f& p = fine.at(x, y);
       if (p.w() >= 1) continue;
       const Eigen::Vector4f behind = between(coarse, x, y);
       if (behind.w() > 0) p += (1 - p.w()) / behind.w() * behind;
     }
+  });
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "seam_levelling.hpp"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 
 #include "drape/base/parallel.hpp"
@@ -46,6 +46,23 @@ void add_smoothness(Triplets& normal, const TriangleMesh& mesh, std::span<const 
       }
     }
   }
+}
+
+// The exposures that corrections start from leave little to do: a few steps of conjugate gradients from zero.
+Eigen::MatrixXd solved_from_zero(const Sparse& lower, const Eigen::MatrixXd& right) {
+  constexpr double close_enough = 2e-3;  // of the right side
+  constexpr int most_steps = 300;
+  const Sparse matrix = lower.selfadjointView<Eigen::Lower>();
+  Eigen::MatrixXd solved(right.rows(), right.cols());
+  parallel_for(static_cast<std::size_t>(right.cols()), 1, [&](std::size_t begin, std::size_t end) {
+    for (auto c = static_cast<Eigen::Index>(begin); c < static_cast<Eigen::Index>(end); ++c) {
+      Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper> solver;
+      solver.setTolerance(close_enough);
+      solver.setMaxIterations(most_steps);
+      solved.col(c) = solver.compute(matrix).solve(right.col(c));
+    }
+  });
+  return solved;
 }
 
 }  // namespace
@@ -107,8 +124,7 @@ std::vector<VertexGains> levelling_gains(const PaintedFaces& surface, std::span<
   add_smoothness(normal, surface.mesh, chosen, gains, unknowns);
   Sparse matrix(count, count);
   matrix.setFromTriplets(normal.begin(), normal.end());
-  const Eigen::SimplicialLDLT<Sparse> solver(matrix);
-  const Eigen::MatrixXd solved = solver.solve(right);
+  const Eigen::MatrixXd solved = solved_from_zero(matrix, right);
   for (std::size_t v = 0; v < gains.size(); ++v)
     for (std::size_t i = 0; i < gains[v].size(); ++i)
       gains[v][i].gain += solved.row(unknowns.first[v] + static_cast<int>(i)).transpose().cast<float>();

@@ -28,6 +28,10 @@ SurfaceNormals::SurfaceNormals(const TriangleMesh& mesh) : mesh_(mesh) {
 }
 
 Eigen::Vector3d SurfaceNormals::at(std::uint32_t face, const Eigen::Vector3d& point) const {
+  return unscaled_at(face, point).stableNormalized();
+}
+
+Eigen::Vector3d SurfaceNormals::unscaled_at(std::uint32_t face, const Eigen::Vector3d& point) const {
   const Face& f = mesh_.faces[face];
   const Eigen::Vector3d scaled = scaled_face_normal(mesh_, face);
   const double twice_area = scaled.norm();
@@ -39,7 +43,7 @@ Eigen::Vector3d SurfaceNormals::at(std::uint32_t face, const Eigen::Vector3d& po
     const double weight = (b - point).cross(c - point).dot(scaled) / (twice_area * twice_area);
     sum += weight * corner_normals_[face][k];
   }
-  return sum.stableNormalized();
+  return sum;
 }
 
 }  // namespace drape::texturing

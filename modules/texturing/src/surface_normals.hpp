@@ -17,6 +17,8 @@ class SurfaceNormals {
 
   /// Unit length; zero on a face without area.
   [[nodiscard]] Eigen::Vector3d at(std::uint32_t face, const Eigen::Vector3d& point) const;
+  /// Linear in the point over a face, and along `at`; its length is no promise.
+  [[nodiscard]] Eigen::Vector3d unscaled_at(std::uint32_t face, const Eigen::Vector3d& point) const;
   /// The face's own, unit length; zero without area.
   [[nodiscard]] const Eigen::Vector3d& of_face(std::uint32_t face) const { return face_normals_[face]; }
 

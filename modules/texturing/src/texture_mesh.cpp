@@ -10,6 +10,7 @@
 #include "atlas.hpp"
 #include "coverage_picture.hpp"
 #include "drape/base/error.hpp"
+#include "drape/base/parallel.hpp"
 #include "linear_light.hpp"
 #include "photo_materials.hpp"
 #include "photo_sights.hpp"
@@ -94,8 +95,12 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
   p.surface = split_at_sight(simplified, sights, options.split_px, progress.part(0.4, 0.9));
   p.atlas =
       options.mode == TextureMode::atlas || (options.mode == TextureMode::automatic && sights.size() > 1);
-  for (std::size_t i = 0; i < sights.size(); ++i)
-    p.colors.emplace_back(views[p.sights.views[i]].rgb, sights[i].trusted());
+  progress.update(0.9, "reading the photos' colours");
+  p.colors.resize(sights.size());
+  parallel_for(sights.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      p.colors[i] = PhotoColors(views[p.sights.views[i]].rgb, sights[i].trusted());
+  });
   p.exposures.assign(sights.size(), Eigen::Vector3f::Zero());
   if (sights.size() > 1) {
     look_up_colors(p.surface, sights, p.colors);
@@ -110,7 +115,9 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
     straighten(p.surface, p.chosen, sights);
     return p;
   }
+  progress.update(0.97, "blending the photos");
   p.blends = blend_weights(p.surface, p.chosen, blend_px);
+  progress.update(0.98, "levelling the seams");
   p.gains = options.level_seams
                 ? levelling_gains(p.surface, p.chosen, p.blends, sights, p.colors, p.exposures)
                 : no_gains(p.surface, p.chosen, p.blends);
@@ -199,14 +206,22 @@ void add_atlas(const Painting& p, const TextureOptions& options, std::set<std::s
 
 void add_coverage(const Painting& p, const FaceLists& faces_of, std::span<const TextureView> views,
                   TextureResult& result) {
+  std::vector<PixelTally> tallies(faces_of.size());
+  parallel_for(faces_of.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const TextureView& view = views[p.sights.views[s]];
+      const PhotoSight& sight = p.sights.sights[s];
+      const Image8 covered = covered_pixels(triangles_in_photo(p.surface.mesh, faces_of[s], sight),
+                                            view.rgb.width(), view.rgb.height());
+      result.coverage[p.sights.views[s]] = coverage_picture(view.rgb, covered, sight.trusted());
+      tally(view, covered, sight.trusted(), tallies[s]);
+    }
+  });
   PixelTally pixels;
-  for (std::size_t s = 0; s < faces_of.size(); ++s) {
-    const TextureView& view = views[p.sights.views[s]];
-    const PhotoSight& sight = p.sights.sights[s];
-    const Image8 covered = covered_pixels(triangles_in_photo(p.surface.mesh, faces_of[s], sight),
-                                          view.rgb.width(), view.rgb.height());
-    result.coverage[p.sights.views[s]] = coverage_picture(view.rgb, covered, sight.trusted());
-    tally(view, covered, sight.trusted(), pixels);
+  for (const PixelTally& t : tallies) {
+    pixels.covered += t.covered;
+    pixels.overhang += t.overhang;
+    pixels.background += t.background;
   }
   if (pixels.covered == 0) return;
   result.overhang_percent = 100 * pixels.overhang / pixels.covered;
@@ -296,6 +311,7 @@ TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& f
     add_atlas(p, options, names, progress.part(0.7, 0.95), result);
   else
     add_photo_materials(p, faces_of, views, options, names, result);
+  progress.update(0.95, "counting what is covered");
   add_coverage(p, faces_of, views, result);
   for (std::size_t s = 0; s < p.sights.views.size(); ++s) {
     result.views[p.sights.views[s]].warp_px = p.sights.warps_px[s];
