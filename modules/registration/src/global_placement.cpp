@@ -26,6 +26,8 @@ constexpr double least_edge_score = 0.01;
 constexpr double loop_tolerance_voxels = 4;
 // Poses from a chain of pairs are a voxel or so off, and edges then hang over: more than in a pair.
 constexpr double most_contradiction_in_group = 0.05;
+// Refined by all points, the smoothed ones lie a few percent further apart than where they were fitted.
+constexpr double slack_of_refined = 1.06;
 
 struct Pair {
   std::size_t source;
@@ -244,8 +246,9 @@ std::string objection(std::size_t which, const std::vector<PlacedScan>& placed,
   bool borne_out = false;
   for (std::size_t other = 0; other < placed.size(); ++other) {
     if (other == which || !placed[other].placed || !searched[other]) continue;
-    const PairPose pose = judge_pair(*searched[which], *searched[other],
-                                     placed[other].world_from_scan.inverse() * placed[which].world_from_scan);
+    const PairPose pose =
+        judge_pair(*searched[which], *searched[other],
+                   placed[other].world_from_scan.inverse() * placed[which].world_from_scan, slack_of_refined);
     if (pose.contradiction() > most_contradiction_in_group) return pose.against;
     borne_out |= pose.against.empty();
     if (pose.overlap > most_overlap) {

@@ -135,8 +135,8 @@ double PairPose::score() const {
   return evidence(overlap, hold, contradiction());
 }
 
-PairPose judge_pair(const SearchedScan& source, const SearchedScan& target,
-                    const Rigid3& target_from_source) {
+PairPose judge_pair(const SearchedScan& source, const SearchedScan& target, const Rigid3& target_from_source,
+                    double slack) {
   const Rigid3 source_from_target = target_from_source.inverse();
   const CoarseFit there = measure_fit(source.coarse, target.coarse, target_from_source, 1);
   const CoarseFit back = measure_fit(target.coarse, source.coarse, source_from_target, 1);
@@ -152,7 +152,7 @@ PairPose judge_pair(const SearchedScan& source, const SearchedScan& target,
       std::max(there.hold, back.hold),
       {}};
   const double noise = std::max(source.coarse.noise(), target.coarse.noise()) / voxel;
-  const double most_rms = std::hypot(most_rms_voxels, noise_left * noise);
+  const double most_rms = slack * std::hypot(most_rms_voxels, noise_left * noise);
   if (pose.overlap < least_overlap)
     pose.against = fmt::format("only {:.0f} % overlap", 100 * pose.overlap);
   else if (pose.rms_voxels > most_rms)

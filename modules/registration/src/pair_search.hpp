@@ -54,9 +54,10 @@ struct PairHint {
   std::optional<Eigen::Matrix3d> rotation;  // of target_from_source, to within some degrees
 };
 
-/// The shares and the distance for one motion, and what speaks against it.
+/// The shares and the distance for one motion, and what speaks against it. The distance may be `slack` times
+/// as large as is believed of a pose that was fitted to the same smoothed points.
 [[nodiscard]] PairPose judge_pair(const SearchedScan& source, const SearchedScan& target,
-                                  const Rigid3& target_from_source);
+                                  const Rigid3& target_from_source, double slack = 1);
 
 /// The ways that two scans may lie to each other, best first, at most `most`; what nothing speaks against
 /// comes before the rest. Motions that feature matches agree on, that of scans taken from the same place, and
