@@ -135,6 +135,10 @@ double PairPose::score() const {
   return evidence(overlap, hold, contradiction());
 }
 
+double PairPose::relative_contradiction() const {
+  return contradiction() / std::max(firm_overlap(overlap, hold), 1e-9);
+}
+
 PairPose judge_pair(const SearchedScan& source, const SearchedScan& target, const Rigid3& target_from_source,
                     double slack) {
   const Rigid3 source_from_target = target_from_source.inverse();
