@@ -46,6 +46,7 @@ CommandLine::CommandLine(const std::atomic<bool>& stop_requested) : stop_(stop_r
   add_simulate();
   add_segment();
   add_align();
+  add_relight();
   add_completion();
   add_manual();
   app.footer(
@@ -385,6 +386,47 @@ void CommandLine::add_align() {
     action = [this] {
       align.progress = quiet ? ProgressMode::none : progress;
       align_command(align, stop_);
+      return 0;
+    };
+  });
+}
+
+void CommandLine::add_relight() {
+  CLI::App* sub = command("relight", "Draw a model under a new light, with the shadows that it casts",
+                          "drape relight teapot-model --azimuth 60 --elevation 30 -o relit.png");
+  const auto number = [&](const std::string& name, double& value, double least, double most,
+                          const std::string& what) {
+    sub->add_option(name, value, what)
+        ->capture_default_str()
+        ->check(CLI::Range(least, most))
+        ->type_name("NUMBER");
+  };
+  sub->add_option("model", relight.model,
+                  "model.ply, the folder with it, or a mesh; the albedo if it is there")
+      ->required()
+      ->type_name("MODEL");
+  number("--azimuth", relight.azimuth_deg, -360, 360,
+         "Where the lamp is, in degrees counter-clockwise seen from above; 0 is the front");
+  number("--elevation", relight.elevation_deg, -90, 90, "The lamp's height, in degrees over the horizon");
+  number("--intensity", relight.intensity, 0, 1000,
+         "At 1, white that faces the lamp is white in the picture");
+  number("--ambient", relight.ambient, 0, 1000, "Light from all round, in the same measure");
+  number("--softness", relight.softness_deg, 0, 45, "The lamp's radius in degrees: 0 casts hard shadows");
+  number("--view-azimuth", relight.view_azimuth_deg, -360, 360, "Where the camera is, as --azimuth");
+  number("--view-elevation", relight.view_elevation_deg, -89, 89, "The camera's height, as --elevation");
+  sub->add_option("--size", relight.size_px, "Pixels a side")
+      ->capture_default_str()
+      ->check(CLI::Range(16, 4096))
+      ->type_name("PIXELS");
+  sub->add_option("--up", relight.up, "The axis of the model that points up")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"y", "z"}))
+      ->type_name("AXIS");
+  sub->add_option("-o,--output", relight.output, "PNG or JPEG to write; default: MODEL-relit.png beside it")
+      ->type_name("FILE");
+  sub->callback([this] {
+    action = [this] {
+      relight_command(relight);
       return 0;
     };
   });

@@ -36,6 +36,7 @@ struct CommandLine {
   SimulateArguments simulate;
   SegmentArguments segment;
   AlignArguments align;
+  RelightArguments relight;
   GcArguments gc;
   DiffArguments diff;
   ReportArguments report;
@@ -66,6 +67,7 @@ struct CommandLine {
   void add_manual();
   void add_segment();
   void add_align();
+  void add_relight();
   void add_simulate();
 
   const std::atomic<bool>& stop_;

@@ -147,6 +147,23 @@ struct AlignArguments {
 /// were found on the way.
 void align_command(const AlignArguments& arguments, const std::atomic<bool>& stop);
 
+struct RelightArguments {
+  std::filesystem::path model;  // a PLY, textured or plain, another mesh, or the folder of an exported model
+  // Directions: counter-clockwise seen from above, 0 at the front (-y for z up, z for y up).
+  double azimuth_deg = 40;
+  double elevation_deg = 45;
+  double intensity = 1;
+  double ambient = 0.15;
+  double softness_deg = 1;
+  double view_azimuth_deg = 0;
+  double view_elevation_deg = 18;
+  int size_px = 960;
+  char up = 'z';
+  std::filesystem::path output;  // empty: <model>-relit.png beside it
+};
+/// A picture of a model under a new light; of its albedo, if <model>_albedo.ply lies beside it.
+void relight_command(const RelightArguments& arguments);
+
 /// drape, its compiler, and the libraries: name and version.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> versions();
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "drape/base/files.hpp"
+#include "drape/io/photo.hpp"
 #include "program.hpp"
 #include "support.hpp"
 
@@ -25,7 +26,7 @@ TEST(CommandLine, VersionNamesTheLibraries) {
 
 TEST(CommandLine, EveryHelpShowsAnExample) {
   for (const char* command : {"run", "status", "explain", "validate", "new", "make", "batch", "sweep", "gc",
-                              "diff", "adopt", "reference", "simulate", "segment", "align"}) {
+                              "diff", "adopt", "reference", "simulate", "segment", "align", "relight"}) {
     const Outcome outcome = run_drape({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_TRUE(contains(outcome.out, std::string("Example:\n  drape ") + command)) << outcome.out;
@@ -84,6 +85,29 @@ TEST(CommandLine, AlignFindsTheCameraOfOnePhoto) {
   EXPECT_EQ(align({"--box", "1,2,3"}).exit_code, 64);
   EXPECT_EQ(align({"--evidence", "tea"}).exit_code, 64);
   EXPECT_EQ(align({"--mask", mesh}).exit_code, 65);
+}
+
+TEST(CommandLine, RelightDrawsAModelUnderANewLight) {
+  const ScratchFolder folder;
+  const std::string mesh = source("sample_scans/teapot/truth_mesh.ply").string();
+  const auto relight = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"relight", mesh, "--size", "120", "-o", (folder / name).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_drape(arguments, folder.path());
+  };
+  ASSERT_EQ(relight("left.png", {"--azimuth", "-70"}).exit_code, 0);
+  ASSERT_EQ(relight("right.png", {"--azimuth", "70"}).exit_code, 0);
+  const Image8 left = io::read_photo(folder / "left.png").rgb;
+  const Image8 right = io::read_photo(folder / "right.png").rgb;
+  const auto bright = [](const Image8& picture, int from, int to) {
+    double sum = 0;
+    for (int y = 0; y < picture.height(); ++y)
+      for (int x = from; x < to; ++x) sum += picture.at(x, y);
+    return sum;
+  };
+  EXPECT_GT(bright(left, 0, 60) - bright(left, 60, 120), bright(right, 0, 60) - bright(right, 60, 120));
+  EXPECT_EQ(relight("x.png", {"--elevation", "100"}).exit_code, 64);
+  EXPECT_EQ(relight("x.png", {"--up", "w"}).exit_code, 64);
 }
 
 TEST(CommandLine, NewWritesAConfigurationThatIsValid) {

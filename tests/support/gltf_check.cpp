@@ -281,6 +281,7 @@ class Checker {
         problem("material {}: baseColorFactor is no colour", i);
     }
     if (pbr.contains("baseColorTexture")) (void)index(pbr["baseColorTexture"].at("index"), "textures");
+    if (material.contains("normalTexture")) (void)index(material["normalTexture"].at("index"), "textures");
     const Json extensions = material.value("extensions", Json::object());
     for (const auto& [name, value] : extensions.items())
       if (used_.count(name) == 0 || !value.is_object())
@@ -322,9 +323,12 @@ class Checker {
           problem("COLOR_0 is not within 0 and 1");
           break;
         }
+    const Json* tangents = attribute(primitive, "TANGENT", 4, count);
+    if (tangents != nullptr) this->tangents(floats(*tangents));
     const bool uvs = attribute(primitive, "TEXCOORD_0", 2, count) != nullptr;
     for (const auto& [name, value] : primitive.at("attributes").items())
-      if (name != "POSITION" && name != "NORMAL" && name != "COLOR_0" && name != "TEXCOORD_0")
+      if (name != "POSITION" && name != "NORMAL" && name != "COLOR_0" && name != "TEXCOORD_0" &&
+          name != "TANGENT")
         problem("unexpected attribute {}", name);
     if (primitive.contains("indices"))
       indices(primitive["indices"], count);
@@ -335,6 +339,16 @@ class Checker {
     if (m && !uvs &&
         list("materials")[*m].value("pbrMetallicRoughness", Json::object()).contains("baseColorTexture"))
       problem("a textured primitive has no TEXCOORD_0");
+    if (m && !uvs && list("materials")[*m].contains("normalTexture"))
+      problem("a primitive with a normal map has no TEXCOORD_0");
+  }
+
+  void tangents(const std::vector<float>& values) {
+    for (std::size_t i = 0; i + 3 < values.size(); i += 4) {
+      const float length = std::hypot(values[i], values[i + 1], values[i + 2]);
+      if (std::abs(length - 1) > 5e-4F) return problem("a tangent has length {}", length);
+      if (std::abs(values[i + 3]) != 1) return problem("a tangent's w is {}", values[i + 3]);
+    }
   }
 
   void unit_length(const std::vector<float>& values) {
@@ -391,6 +405,7 @@ class Checker {
     primitive.positions = vectors<3>(json, "POSITION");
     primitive.normals = vectors<3>(json, "NORMAL");
     primitive.colors = vectors<3>(json, "COLOR_0");
+    primitive.tangents = vectors<4>(json, "TANGENT");
     primitive.uvs = vectors<2>(json, "TEXCOORD_0");
     primitive.indices = index_values(list("accessors")[json["indices"].get<std::size_t>()]);
     const Json& material = list("materials")[json["material"].get<std::size_t>()];
@@ -402,6 +417,10 @@ class Checker {
     if (pbr.contains("baseColorTexture")) {
       const Json& texture = list("textures")[pbr["baseColorTexture"]["index"].get<std::size_t>()];
       primitive.image = image_bytes(texture["source"].get<std::size_t>());
+    }
+    if (material.contains("normalTexture")) {
+      const Json& texture = list("textures")[material["normalTexture"]["index"].get<std::size_t>()];
+      primitive.normal_map = image_bytes(texture["source"].get<std::size_t>());
     }
     return primitive;
   }

@@ -20,11 +20,13 @@ struct GltfPrimitive {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;
   std::vector<Eigen::Vector3f> colors;
+  std::vector<Eigen::Vector4f> tangents;
   std::vector<Eigen::Vector2f> uvs;
   std::vector<std::uint32_t> indices;
   std::string material;
   Eigen::Vector4f base_color = Eigen::Vector4f::Ones();
-  std::string image;  // its bytes; empty without a texture
+  std::string image;       // its bytes; empty without a texture
+  std::string normal_map;  // the same
   bool unlit = false;
 };
 struct GltfModel {

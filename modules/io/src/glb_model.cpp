@@ -1,4 +1,5 @@
 // glTF 2.0 binary (Khronos Group, "glTF 2.0 Specification", section 4.4 for the container).
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
+#include "drape/geometry/tangent_frames.hpp"
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
 #include "model_problem.hpp"
@@ -37,8 +39,9 @@ void append(std::string& bytes, Number value) {
 
 /// One primitive: the faces of one material. A vertex is repeated only where its corners differ in (u, v).
 struct Primitive {
-  std::vector<std::uint32_t> vertices;  // of the mesh
-  std::vector<Eigen::Vector2f> uvs;     // empty for a flat material
+  std::vector<std::uint32_t> vertices;    // of the mesh
+  std::vector<Eigen::Vector2f> uvs;       // empty for a flat material
+  std::vector<Eigen::Vector4f> tangents;  // of a material with a normal map; else empty
   std::vector<std::uint32_t> indices;
 };
 
@@ -54,12 +57,17 @@ struct CornerHash {
   }
 };
 
-std::vector<Primitive> primitives_of(const TexturedMesh& model, bool mirrored) {
+using CornerTangents = std::vector<std::array<Eigen::Vector4f, 3>>;
+
+/// `tangents`: per face and corner; empty if no normal map is written.
+std::vector<Primitive> primitives_of(const TexturedMesh& model, const CornerTangents& tangents,
+                                     bool mirrored) {
   std::vector<Primitive> primitives(model.materials.size());
   std::vector<std::unordered_map<CornerKey, std::uint32_t, CornerHash>> known(model.materials.size());
   for (std::size_t f = 0; f < model.mesh.faces.size(); ++f) {
     const std::uint32_t m = model.face_materials[f];
     const bool flat = is_flat(model.materials[m]);
+    const bool bumpy = !tangents.empty() && !flat && !model.materials[m].normal_map.empty();
     Primitive& primitive = primitives[m];
     for (const std::size_t k :
          mirrored ? std::array<std::size_t, 3>{0, 2, 1} : std::array<std::size_t, 3>{0, 1, 2}) {
@@ -73,6 +81,7 @@ std::vector<Primitive> primitives_of(const TexturedMesh& model, bool mirrored) {
       if (added) {
         primitive.vertices.push_back(key.vertex);
         if (!flat) primitive.uvs.push_back(uv);
+        if (bumpy) primitive.tangents.push_back(tangents[f][k]);
       }
       primitive.indices.push_back(entry->second);
     }
@@ -115,6 +124,14 @@ class GlbBuilder {
     return add("accessors", accessor_json(view, component_float, values.size(), "VEC2"));
   }
 
+  int accessor_of_tangents(const std::vector<Eigen::Vector4f>& values) {
+    const int view = begin_view(target_vertices);
+    for (const Eigen::Vector4f& value : values)
+      for (const float x : value) append(binary_, x);
+    end_view();
+    return add("accessors", accessor_json(view, component_float, values.size(), "VEC4"));
+  }
+
   int accessor_of_indices(const std::vector<std::uint32_t>& values) {
     const int view = begin_view(target_indices);
     for (const std::uint32_t value : values) append(binary_, value);
@@ -128,10 +145,13 @@ class GlbBuilder {
       pbr["baseColorFactor"] = {linear(material.flat_color.x()), linear(material.flat_color.y()),
                                 linear(material.flat_color.z()), 1.0};
     else
-      pbr["baseColorTexture"] = {{"index", texture(material)}};
+      pbr["baseColorTexture"] = {{"index", texture(material.image, material.name, options_.jpeg_textures)}};
     pbr["metallicFactor"] = 0;
     pbr["roughnessFactor"] = 1;
     Json json = {{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}, {"doubleSided", true}};
+    // JPEG's halved colours would tilt normals.
+    if (!options_.unlit && !is_flat(material) && !material.normal_map.empty())
+      json["normalTexture"] = {{"index", texture(material.normal_map, material.name + "_normal", false)}};
     if (options_.unlit) {
       json["extensions"] = {{"KHR_materials_unlit", Json::object()}};
       root_["extensionsUsed"] = {"KHR_materials_unlit"};
@@ -171,18 +191,17 @@ class GlbBuilder {
   }
 
  private:
-  int texture(const Material& material) {
+  int texture(const Image8& picture, const std::string& name, bool jpeg) {
     if (!root_.contains("samplers"))
       root_["samplers"] = {{{"magFilter", filter_linear},
                             {"minFilter", filter_linear_mipmap_linear},
                             {"wrapS", wrap_clamp},
                             {"wrapT", wrap_clamp}}};
     const int view = begin_view(0);
-    binary_ += encode_image(material.image, options_.jpeg_textures ? "jpg" : "png", options_.jpeg_quality);
+    binary_ += encode_image(picture, jpeg ? "jpg" : "png", options_.jpeg_quality);
     end_view();
-    const int image = add("images", {{"name", material.name},
-                                     {"bufferView", view},
-                                     {"mimeType", options_.jpeg_textures ? "image/jpeg" : "image/png"}});
+    const int image = add(
+        "images", {{"name", name}, {"bufferView", view}, {"mimeType", jpeg ? "image/jpeg" : "image/png"}});
     return add("textures", {{"sampler", 0}, {"source", image}});
   }
 
@@ -232,6 +251,23 @@ std::vector<Eigen::Vector3f> normals_of(const TexturedMesh& model, const Eigen::
   return normals;
 }
 
+/// In the file's frame; none if no material's normal map is written.
+CornerTangents tangents_of(const TexturedMesh& model, const Eigen::Affine3d& transform, bool unlit) {
+  if (unlit || std::all_of(model.materials.begin(), model.materials.end(),
+                           [](const Material& m) { return m.normal_map.empty(); }))
+    return {};
+  CornerTangents tangents =
+      corner_tangents(model, model.mesh.normals.empty() ? vertex_normals(model.mesh) : model.mesh.normals);
+  const float turn = transform.linear().determinant() < 0 ? -1.F : 1.F;
+  for (auto& corners : tangents)
+    for (Eigen::Vector4f& tangent : corners) {
+      const Eigen::Vector3d turned =
+          (transform.linear() * tangent.head<3>().cast<double>()).stableNormalized();
+      tangent << turned.cast<float>(), turn * tangent.w();
+    }
+  return tangents;
+}
+
 template <class Value>
 std::vector<Value> chosen(const std::vector<Value>& values, const std::vector<std::uint32_t>& indices) {
   std::vector<Value> taken;
@@ -260,7 +296,8 @@ void write_glb(const std::filesystem::path& file, const TexturedMesh& model, con
        {"extras", {{"origin_m", {origin_in_extras.x(), origin_in_extras.y(), origin_in_extras.z()}}}}}};
   glb.root()["nodes"] = {{{"mesh", 0}, {"name", file.stem().string()}}};
   Json list = Json::array();
-  const std::vector<Primitive> primitives = primitives_of(model, determinant < 0);
+  const std::vector<Primitive> primitives =
+      primitives_of(model, tangents_of(model, transform, options.unlit), determinant < 0);
   for (std::size_t m = 0; m < primitives.size(); ++m) {
     const Primitive& primitive = primitives[m];
     if (primitive.indices.empty()) continue;
@@ -270,6 +307,7 @@ void write_glb(const std::filesystem::path& file, const TexturedMesh& model, con
       attributes["TEXCOORD_0"] = glb.accessor_of_uvs(primitive.uvs);
     else if (!colors.empty())
       attributes["COLOR_0"] = glb.accessor_of_vectors(chosen(colors, primitive.vertices), false);
+    if (!primitive.tangents.empty()) attributes["TANGENT"] = glb.accessor_of_tangents(primitive.tangents);
     const int indices = glb.accessor_of_indices(primitive.indices);
     list.push_back({{"attributes", std::move(attributes)},
                     {"indices", indices},

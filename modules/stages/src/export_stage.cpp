@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "drape/base/files.hpp"
 #include "drape/base/log.hpp"
 #include "drape/geometry/bounding_box.hpp"
@@ -10,6 +12,7 @@
 #include "drape/io/records.hpp"
 #include "drape/meshing/simplify.hpp"
 #include "drape/report/contact_sheet.hpp"
+#include "drape/texturing/normal_maps.hpp"
 #include "gltf_axes.hpp"
 #include "rows.hpp"
 
@@ -30,6 +33,7 @@ struct ExportOptions {
   bool metashape = false;
   ExportUnits units = ExportUnits::input;
   bool unlit = true;
+  bool normal_maps = true;
   TextureFormat glb_textures = TextureFormat::png;
   int web_triangles = 30'000;
 };
@@ -47,6 +51,10 @@ void describe(Binder& b, ExportOptions& o) {
            {{"input", ExportUnits::input}, {"m", ExportUnits::metres}, {"mm", ExportUnits::millimetres}},
            "units of all files but the GLB; input: those of the scans, so that the model lies over them");
   b.flag("unlit", o.unlit, "GLB: viewers show the photo's own light and add none (KHR_materials_unlit)");
+  b.flag(
+      "normal_maps", o.normal_maps,
+      "GLB that viewers light (unlit: false): the shape of the full mesh as normal maps, so that the fewer "
+      "triangles look like it");
   b.choice("glb_textures", o.glb_textures, {{"png", TextureFormat::png}, {"jpeg", TextureFormat::jpeg}},
            "GLB: PNG keeps every texel, JPEG is smaller");
   b.number(
@@ -90,12 +98,24 @@ GltfFrame gltf_frame(const TexturedMesh& model, const io::WorkspaceFrame& frame,
   return result;
 }
 
+// What simplification took away, where a viewer's light can show it: pictures have normals to lie beside.
+TexturedMesh with_full_shape(const ExportOptions& options, TexturedMesh model, int most_side_px,
+                             const pipeline::StageRun& run) {
+  const bool pictures = std::any_of(model.materials.begin(), model.materials.end(),
+                                    [](const Material& m) { return !m.image.empty(); });
+  if (options.unlit || !options.normal_maps || !pictures) return model;
+  return texturing::with_normal_maps(std::move(model), io::read_mesh(run.artifact("fill", "mesh.ply")),
+                                     most_side_px);
+}
+
 void write_web_copy(const ExportOptions& options, const TexturedMesh& model, const GltfFrame& frame,
                     pipeline::StageRun& run) {
   constexpr int most_side_px = 2048;
+  constexpr int most_normal_side_px = 1024;
   TexturedMesh light = meshing::simplified(model, static_cast<std::size_t>(options.web_triangles));
   for (Material& material : light.materials)
     if (!material.image.empty()) material.image = report::fitted(material.image, most_side_px, most_side_px);
+  light = with_full_shape(options, std::move(light), most_normal_side_px, run);
   io::write_glb(run.output("model_web.glb"), light, frame.transform, frame.origin,
                 {.unlit = options.unlit, .jpeg_textures = true, .jpeg_quality = 85});
 }
@@ -106,7 +126,10 @@ void write_gltf(const ExportOptions& options, const TexturedMesh& model, const i
   io::GlbOptions glb;
   glb.unlit = options.unlit;
   glb.jpeg_textures = options.glb_textures == TextureFormat::jpeg;
-  if (options.glb) io::write_glb(run.output("model.glb"), model, gltf.transform, gltf.origin, glb);
+  constexpr int most_normal_side_px = 2048;
+  if (options.glb)
+    io::write_glb(run.output("model.glb"), with_full_shape(options, model, most_normal_side_px, run),
+                  gltf.transform, gltf.origin, glb);
   if (options.web_triangles > 0) write_web_copy(options, model, gltf, run);
 }
 
@@ -195,14 +218,11 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
 pipeline::Stage export_stage() {
   pipeline::Stage stage;
   stage.name = "export";
-  stage.version = 2;
+  stage.version = 3;
   stage.summary = "Writes the model in the formats that viewers open; they are copied to `output`.";
   stage.input_parts = {"up"};
-  stage.reads = {{"fill", "mesh_simplified.ply"},
-                 {"fill", "holes.json"},
-                 {"texture", "model.ply"},
-                 {"texture", "textures/*.png"},
-                 {"align", "cameras.json"}};
+  stage.reads = {{"fill", "mesh.ply"},     {"fill", "mesh_simplified.ply"}, {"fill", "holes.json"},
+                 {"texture", "model.ply"}, {"texture", "textures/*.png"},   {"align", "cameras.json"}};
   stage.writes = {"model.glb", "model_web.glb", "model.obj",    "model.mtl",
                   "model.ply", "model_*.png",   "cameras.json", "model_colors.ply",
                   "model.stl", "colmap/*.txt",  "model.mlp",    "metashape.xml"};

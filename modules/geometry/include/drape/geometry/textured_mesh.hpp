@@ -17,6 +17,9 @@ struct Material {
   std::string name;  // [A-Za-z0-9_]+
   Image8 image;      // 3 channels; empty: flat colour (times vertex colours)
   Eigen::Vector3f flat_color = Eigen::Vector3f::Ones();  // as stored (sRGB-encoded), 0..1
+  /// Normals in the axes of corner_tangents(), (1 + n) / 2 * 255: x along u, y against v (up in the picture),
+  /// z outwards. 3 channels, the texture coordinates of `image`; empty: none.
+  Image8 normal_map = {};
 };
 
 /// Texture coordinates inside drape: u to the right, v DOWN from the top left corner, 0..1 over the image.

@@ -20,7 +20,8 @@ struct GlbOptions {
 /// the scene's extras, so that origin + position is the true place. Base colours are 8-bit sRGB, metallic 0;
 /// vertex colours, where a material has no image, are linearised as the format asks. UV origin top left, as
 /// inside drape. One primitive per material that has faces; vertices are repeated only where corners differ
-/// in (u, v); normals are the mesh's, or computed. Error{input} for a model without faces or with numbers out
+/// in (u, v); normals are the mesh's, or computed; normal maps come with tangents, and not in an unlit file,
+/// where no viewer looks at them. Error{input} for a model without faces or with numbers out
 /// of range; Error{io} if it cannot be written or takes more than 4 GiB.
 void write_glb(const std::filesystem::path& file, const TexturedMesh& model, const Eigen::Affine3d& transform,
                const Eigen::Vector3d& origin_in_extras, const GlbOptions& options = {});
