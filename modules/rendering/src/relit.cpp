@@ -21,7 +21,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int shadow_side = 2048;
 constexpr int soft_maps = 12;
 
 float linear(float stored) {
@@ -126,7 +125,7 @@ Image8 render_relit(const TexturedMesh& model, const Camera& camera, const Relit
   const ModelNormals normals(model);
   const SoftShadow shadow(renderer, bounding_box(model.mesh.vertices), towards,
                           style.softness_deg * std::numbers::pi / 180, style.softness_deg > 0 ? soft_maps : 1,
-                          shadow_side);
+                          style.shadow_map_px);
   const auto light_at = [&](int x, int y) {
     const auto face = static_cast<std::size_t>(seen.faces.at(x, y));
     const Vector3d point = fine.unproject({x + 0.5, y + 0.5}, seen.depth.at(x, y));

@@ -20,7 +20,8 @@ TexturedMesh cube_on_a_floor() {
   TexturedMesh model;
   model.mesh = test::box({-0.5, -0.5, 0}, {0.5, 0.5, 1});
   const auto first = static_cast<std::uint32_t>(model.mesh.vertices.size());
-  for (const Eigen::Vector3d x : {Eigen::Vector3d(-2, -2, 0), {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}})
+  for (const Eigen::Vector3d& x : {Eigen::Vector3d(-2, -2, 0), Eigen::Vector3d(2, -2, 0),
+                                   Eigen::Vector3d(2, 2, 0), Eigen::Vector3d(-2, 2, 0)})
     model.mesh.vertices.push_back(x);
   model.mesh.faces.push_back({first, first + 1, first + 2});
   model.mesh.faces.push_back({first, first + 2, first + 3});
@@ -47,6 +48,7 @@ RelitStyle light_from(const Eigen::Vector3d& towards) {
   style.towards_light = towards;
   style.ambient = 0;
   style.softness_deg = 0;
+  style.shadow_map_px = 256;
   return style;
 }
 

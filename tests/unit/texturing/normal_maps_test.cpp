@@ -65,6 +65,7 @@ TEST(NormalMaps, MakeAFlatModelLookLikeTheFullMesh) {
   rendering::RelitStyle style;
   style.towards_light = {0.5, 0.3, 0.8};
   style.softness_deg = 0;
+  style.shadow_map_px = 256;
   const Image8 truth = render_relit(white(full), from_above(), style);
   for (const bool mirrored : {false, true}) {
     const TexturedMesh flat = white(waved(2, 0), mirrored);

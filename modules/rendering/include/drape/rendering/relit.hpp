@@ -16,6 +16,7 @@ struct RelitStyle {
   double softness_deg = 1;  // the lamp's radius as seen from the model: 0 casts hard shadows
   Eigen::Vector3f background = Eigen::Vector3f(1, 1, 1);  // sRGB
   int samples_per_side = 2;
+  int shadow_map_px = 1024;  // a side: finer ones cast finer shadows
 };
 
 /// RGB picture: the materials' colours are taken for the paint of a matt surface (Lambert's law), shadows are
