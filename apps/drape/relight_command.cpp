@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "drape/base/error.hpp"
+#include "drape/base/files.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
@@ -36,10 +37,16 @@ TexturedMesh plain(TriangleMesh mesh) {
   return model;
 }
 
+// Whether the header has the line that textured PLY files name their pictures in.
+bool names_pictures(const fs::path& file) {
+  const std::string bytes = read_file(file);
+  const std::size_t end = bytes.find("end_header");
+  return bytes.substr(0, end == std::string::npos ? 0 : end).find("comment TextureFile") != std::string::npos;
+}
+
 TexturedMesh read_model(const fs::path& file) {
-  if (file.extension() != ".ply") return plain(io::read_mesh(file));
-  TexturedMesh model = io::read_textured_ply(file, {});
-  return model.materials.empty() ? plain(std::move(model.mesh)) : model;
+  const bool textured = file.extension() == ".ply" && names_pictures(file);
+  return textured ? io::read_textured_ply(file, {}) : plain(io::read_mesh(file));
 }
 
 // Counter-clockwise seen from above, from the side that is the front; upwards.
