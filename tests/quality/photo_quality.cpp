@@ -5,7 +5,7 @@
 //
 // `draws`: boxes and clicks a photo; `photos`: simulated ones a row; `pairs`: of a mesh and a photo without
 // it; options are those of `align:`. With a box or a click the colours alone are the evidence; unaided, the
-// photo is segmented and aligned as a run does it with its defaults.
+// photo is segmented and aligned as a run does it with its defaults, but with evidence=colour by its colours.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -95,13 +95,14 @@ struct Hint {
 
 Alignment align(const TriangleMesh& mesh, const Image8& rgb, const Hint& hint,
                 alignment::AlignOptions options) {
-  if (!hint.box && !hint.click) {
+  const bool as_a_run = options.evidence == alignment::EvidenceKind::automatic;
+  if (as_a_run && !hint.box && !hint.click) {
     const segmentation::Segmentation found = segmentation::segment_photo(rgb, {}, {}, {}, 1);
     PhotoEvidence evidence{found.stencil, std::nullopt, &rgb};
     evidence.stencil_confidence = found.confidence;
-    options.evidence = alignment::EvidenceKind::automatic;
     return alignment::align_photo(mesh, evidence, options, 1, {});
   }
+  if (as_a_run) options.evidence = alignment::EvidenceKind::colour;
   const Image8 nothing(rgb.width(), rgb.height(), 1, stencil::unknown);
   PhotoEvidence evidence{nothing, std::nullopt, &rgb};
   evidence.stencil_confidence = 0;
@@ -260,7 +261,6 @@ std::vector<PhotoCase> simulated(Scene scene, const Arguments& arguments) {
 
 Arguments parsed(test::ProgramArguments& given) {
   Arguments arguments;
-  arguments.options.evidence = alignment::EvidenceKind::colour;
   arguments.rows = given.text("rows").value_or(arguments.rows);
   arguments.kinds = given.text("kinds").value_or(arguments.kinds);
   arguments.photos = given.integer("photos").value_or(arguments.photos);

@@ -52,6 +52,7 @@ struct SearchPlan {
   std::size_t candidates_with_effort = 300;  // where the first ones are no good
   double distinct_place = 0.1;               // of candidates alike in rotation: in radii of the mesh,
   double distinct_size = 0.1;                // and in logarithms of their sizes
+  std::size_t most_in_a_place = 1000;        // of candidates: each place and size that the object may have
   std::size_t most_frames = 1000;            // of all, those where some view fits best
   double good_score = 0.9;                   // at the coarse level: with less the evidence is not trusted
   double glance_reach_px = 16;

@@ -23,6 +23,8 @@ constexpr double usual_perspective = 0.2;
 constexpr double distinct_rad = 10 * radians;
 constexpr double distinct_match_rad = 6 * radians;  // of candidates of the coarse search
 constexpr double same_pose_rad = 3 * radians;       // of refined ones
+constexpr double same_place = 0.5;                  // in radii of the mesh
+constexpr double same_size = 0.5;                   // of the logarithm
 constexpr std::size_t chamfer_matches_kept = 2500;
 constexpr double principal_point_gain = 200;  // of chi squared
 
@@ -35,6 +37,12 @@ struct Candidate {
 
 Eigen::Matrix3d roll_matrix(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+// Whether two poses show the body as the same thing in the photo, which ways ever they turn it.
+bool in_one_place(const OutlinePose& a, const OutlinePose& b) {
+  return (a.shift - b.shift).norm() < same_place * std::min(a.scale, b.scale) &&
+         std::abs(std::log(a.scale / b.scale)) < same_size;
 }
 
 class CoarseSearch {
@@ -189,7 +197,10 @@ std::vector<OutlinePose> CoarseSearch::distinct(const std::vector<OutlinePose>& 
              (better.shift - pose.shift).norm() < plan.distinct_place * pose.scale &&
              std::abs(std::log(better.scale / pose.scale)) < plan.distinct_size;
     });
-    if (!seen) starts.push_back(pose);
+    if (seen) continue;
+    const auto crowd = static_cast<std::size_t>(std::count_if(
+        starts.begin(), starts.end(), [&](const OutlinePose& better) { return in_one_place(better, pose); }));
+    if (crowd < plan.most_in_a_place) starts.push_back(pose);
   }
   return starts;
 }
@@ -203,7 +214,8 @@ std::vector<RefinedPose> best_of(std::vector<RefinedPose> poses, std::size_t mos
   for (RefinedPose& pose : poses) {
     if (kept.size() == most) break;
     const auto seen = std::find_if(kept.begin(), kept.end(), [&](const RefinedPose& better) {
-      return angle_between(better.pose.rotation, pose.pose.rotation) < same_pose_rad;
+      return angle_between(better.pose.rotation, pose.pose.rotation) < same_pose_rad &&
+             in_one_place(better.pose, pose.pose);
     });
     if (seen != kept.end() && pose.agreement.closeness() > seen->agreement.closeness()) *seen = pose;
     if (seen == kept.end()) kept.push_back(std::move(pose));
