@@ -84,6 +84,21 @@ TEST(NastyViews, APhotoOfOnePixel) {
   EXPECT_EQ(result.model.materials[0].image.width(), 1);
 }
 
+TEST(NastyViews, APhotoWiderThanADepthPicture) {
+  const TriangleMesh sphere = test::sphere(1, 8);
+  PlainShot shot(look_at({6, 0, 0}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 20000, 24, 100));
+  for (int y = 0; y < 24; ++y)
+    for (int x = 10000; x < 20000; ++x)
+      for (int c = 0; c < 3; ++c) shot.photo.at(x, y, c) = 177;
+  const TextureResult result = textured(sphere, shot);
+  EXPECT_GT(result.seen_percent, 0);
+  ASSERT_FALSE(result.model.materials.empty());
+  // The left half of the photo is darker: so is what it paints.
+  const Image8& image = result.model.materials[0].image;
+  EXPECT_EQ(image.at(0, 0), 77);
+  EXPECT_EQ(image.at(image.width() - 1, 0), 177);
+}
+
 TEST(NastyViews, AStencilWithoutObjectPixels) {
   const TriangleMesh sphere = test::sphere(1, 8);
   const PlainShot shot(at({4, 0, 0}, {0, 0, 0}, 60, 40));
