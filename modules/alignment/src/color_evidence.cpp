@@ -259,11 +259,11 @@ SearchPlan ColorEvidence::plan() const {
   if (levels_.front().box || levels_.front().click) return plan;
   // Anywhere in the photo other things part the colours as well as the object does while its pose is coarse:
   // each place keeps its best poses until they are refined.
-  plan.most_frames = 300;
-  plan.candidates = 250;
-  plan.most_in_a_place = 6;
-  plan.kept_after_glance = plan.kept_with_effort = 60;
-  plan.kept_for_middle = 20;
+  plan.most_frames = 400;
+  plan.candidates = 400;
+  plan.most_in_a_place = 8;
+  plan.kept_after_glance = plan.kept_with_effort = 100;
+  plan.kept_for_middle = 32;
   plan.kept_for_full = 8;
   return plan;
 }

@@ -167,12 +167,15 @@ ColorLevel color_level(const LabWindow& from, const std::vector<LabColor>& clust
   const int height = from.lab.height();
   level.bins = Image<std::uint16_t>(width, height, 1, ColorLevel::no_bin);
   level.labels.assign(clusters.size(), BitImage(width, height));
+  level.label_at = Image8(width, height, 1, ColorLevel::no_label);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       if (!from.known.at(x, y)) continue;
       const float* lab = &from.lab.at(x, y);
       level.bins.at(x, y) = bin_of(lab);
-      level.labels[nearest(clusters, lab)].set(x, y);
+      const std::size_t here = nearest(clusters, lab);
+      level.labels[here].set(x, y);
+      level.label_at.at(x, y) = static_cast<std::uint8_t>(here);
     }
   level.steps = steps_of(from.lab);
   return level;
@@ -204,6 +207,7 @@ ColorLevel segment_level(const Image<std::int32_t>& segments, const PhotoPlane& 
     cluster[largest[i].second] = std::min<std::size_t>(i, most_segments - 1);
   level.labels.assign(std::min<std::size_t>(most_segments, largest.size()),
                       BitImage(level.window.width, level.window.height));
+  level.label_at = Image8(level.window.width, level.window.height, 1, ColorLevel::no_label);
   ImageF meeting(seen.width(), seen.height(), 3, 0.F);
   for (int y = 0; y < seen.height(); ++y)
     for (int x = 0; x < seen.width(); ++x) {
@@ -212,6 +216,7 @@ ColorLevel segment_level(const Image<std::int32_t>& segments, const PhotoPlane& 
       level.known.set(x, y);
       level.bins.at(x, y) = static_cast<std::uint16_t>(here);
       level.labels[here].set(x, y);
+      level.label_at.at(x, y) = static_cast<std::uint8_t>(here);
       // Points of a circle, any two of them a clear step apart.
       const double turn = 2 * std::numbers::pi * static_cast<double>(here) / most_segments;
       meeting.at(x, y, 1) = segment_step * static_cast<float>(std::cos(turn));

@@ -26,11 +26,13 @@ struct ColorLevel {
   /// Histograms have 16 steps each of L, a and b.
   static constexpr int bin_count = 4096;
   static constexpr std::uint16_t no_bin = 0xffff;
+  static constexpr std::uint8_t no_label = 0xff;
 
   Window window;
   BitImage known;                // inside the photo
   Image<std::uint16_t> bins;     // of the histogram; no_bin outside the photo
-  std::vector<BitImage> labels;  // the pixels of each cluster of colours
+  Image8 label_at;               // each pixel's cluster of colours, or no_label
+  std::vector<BitImage> labels;  // the pixels of each cluster
   /// Lab differences across 2 pixels, squared and summed: the step along a direction (x, y) is the root of
   /// xx x^2 + 2 xy x y + yy y^2.
   struct Step {

@@ -98,12 +98,13 @@ ColorRolls::ColorRolls(const ColorLevel& level, const PolarFrame& frame, const C
     : region_(region), frame_(frame) {
   const std::size_t colors = level.labels.size();
   rings_.assign(polar_rings, std::vector<std::uint64_t>(colors, 0));
-  for (std::size_t c = 0; c < colors; ++c) {
-    const PolarBits bits = polar_bits(frame, [&](double x, double y) {
-      return level.labels[c].at(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
-    });
-    for (std::size_t i = 0; i < polar_rings; ++i) rings_[i][c] = bits[i];
-  }
+  visit_polar(frame, [&](std::size_t ring, std::size_t angle, double x, double y) {
+    const int px = static_cast<int>(std::floor(x));
+    const int py = static_cast<int>(std::floor(y));
+    if (!level.label_at.contains(px, py)) return;
+    const std::uint8_t color = level.label_at.at(px, py);
+    if (color != ColorLevel::no_label) rings_[ring][color] |= std::uint64_t{1} << angle;
+  });
   all_.assign(colors, 0);
   if (region.pixels.empty()) {
     for (std::size_t c = 0; c < colors; ++c)

@@ -37,9 +37,9 @@ struct PolarFrame {
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 
-/// sample(x, y) -> bool for every ring and angle about the frame.
-template <class Sample>
-[[nodiscard]] PolarBits polar_bits(const PolarFrame& frame, Sample sample) {
+/// visit(ring, angle, x, y) for every ring and angle about the frame.
+template <class Visit>
+void visit_polar(const PolarFrame& frame, Visit visit) {
   static const auto offsets = [] {
     std::array<std::pair<double, double>, polar_rings * polar_angles> table;
     for (int i = 0; i < polar_rings * polar_angles; ++i) {
@@ -48,13 +48,20 @@ template <class Sample>
     }
     return table;
   }();
-  PolarBits bits{};
   for (std::size_t i = 0; i < polar_rings; ++i)
     for (std::size_t j = 0; j < polar_angles; ++j) {
       const auto& [dx, dy] = offsets[i * polar_angles + j];
-      if (sample(frame.center.x() + frame.radius * dx, frame.center.y() + frame.radius * dy))
-        bits[i] |= std::uint64_t{1} << j;
+      visit(i, j, frame.center.x() + frame.radius * dx, frame.center.y() + frame.radius * dy);
     }
+}
+
+/// sample(x, y) -> bool for every ring and angle about the frame.
+template <class Sample>
+[[nodiscard]] PolarBits polar_bits(const PolarFrame& frame, Sample sample) {
+  PolarBits bits{};
+  visit_polar(frame, [&](std::size_t ring, std::size_t angle, double x, double y) {
+    if (sample(x, y)) bits[ring] |= std::uint64_t{1} << angle;
+  });
   return bits;
 }
 

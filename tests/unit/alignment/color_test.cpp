@@ -85,8 +85,12 @@ TEST(ColorRolls, PreferTheRightSize) {
   ColorLevel level;
   level.window.width = level.window.height = 128;
   level.labels.assign(2, BitImage(128, 128));
+  level.label_at = Image8(128, 128, 1);
   for (int y = 0; y < 128; ++y)
-    for (int x = 0; x < 128; ++x) level.labels[std::hypot(x + 0.5 - 60, y + 0.5 - 70) < 30 ? 0 : 1].set(x, y);
+    for (int x = 0; x < 128; ++x) {
+      level.label_at.at(x, y) = std::hypot(x + 0.5 - 60, y + 0.5 - 70) < 30 ? 0 : 1;
+      level.labels[level.label_at.at(x, y)].set(x, y);
+    }
   PolarBits disc{};  // of radius sqrt(2) in radii of gyration
   for (std::size_t i = 0; i < polar_rings; ++i)
     if ((static_cast<double>(i) + 0.5) * polar_reach / polar_rings < std::sqrt(2.0))
