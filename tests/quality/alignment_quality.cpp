@@ -1,11 +1,13 @@
 // How well photos are aligned, and whether the verdict knows.
 //
 //   alignment_quality [--poses 20] [--clean-poses 100] [--models A,B] [--cells A,B*] [--seed 1] [--json FILE]
-//                     [--ci] [--misses] [--save FOLDER] [--parts cells,negatives,lmo,dino] [option=value ...]
+//                     [--ci] [--misses] [--save FOLDER] [--parts cells,negatives,lmo,dino] [--negatives 2]
+//                     [--features FILE] [option=value ...]
 //
 // The options are those of `align:`. Models and cells (conditions) that there are: alignment/models.hpp and
 // alignment/cells.cpp. --clean-poses is of the cell 20-60, --poses of every other; --ci is five of each on
-// few models; --misses tells every failure in a line of its own; --save writes the first photo of each row.
+// few models; --negatives: photos of each other model; --features writes what each verdict rests on (CSV);
+// --misses tells every failure in a line of its own; --save writes the first photo of each row.
 // `flag %`: failures that the verdict does not accept; `list %`: failures of which a right pose is among the
 // candidates; `acc %`: right poses that are accepted, or of a body of rotation whose free axis is named.
 #include <fmt/core.h>
@@ -34,6 +36,8 @@ struct Settings {
   std::string json;
   bool misses = false;
   std::string save;
+  std::string features;
+  int negatives = 2;  // photos of each other model
   alignment::AlignOptions options;
 
   [[nodiscard]] bool has(const std::string& part) const {
@@ -60,6 +64,8 @@ Settings settings_of(test::ProgramArguments& arguments) {
   settings.seed = static_cast<std::uint64_t>(arguments.integer("seed").value_or(1));
   settings.json = arguments.text("json").value_or("");
   settings.misses = arguments.flag("misses");
+  settings.features = arguments.text("features").value_or("");
+  settings.negatives = arguments.integer("negatives").value_or(settings.negatives);
   settings.save = arguments.text("save").value_or("");
   arguments.read(settings.options);
   arguments.finish();
@@ -72,33 +78,45 @@ void save_shot(const Shot& shot, const std::string& folder, const std::string& n
   if (shot.photo) io::write_image(folder + "/" + name + "-photo.png", *shot.photo);
 }
 
-Row measure(const Model& model, const Cell& cell, int poses, const Settings& settings) {
+Row measure(const Model& model, const Cell& cell, int poses, const Settings& settings,
+            FeatureTable& features) {
   Row row{cell.name, model.name, {}};
   for (int i = 0; i < poses; ++i) {
     const Shot shot = take_shot(model, cell, settings.seed, i);
     if (i == 0 && !settings.save.empty()) save_shot(shot, settings.save, cell.name + "-" + model.name);
     Trial trial = align_shot(model, cell, shot, settings.options);
     trial.index = i;
+    features.add(cell.name, model.name, i, trial.right ? "right" : "wrong", trial.about_ray_deg,
+                 trial.verdict, trial.outline);
     row.trials.push_back(std::move(trial));
   }
   return row;
 }
 
-std::vector<Row> measure_cells(const std::vector<Model>& models, const Settings& settings) {
+std::vector<Row> measure_cells(const std::vector<Model>& models, const Settings& settings,
+                               FeatureTable& features) {
   std::vector<Row> rows;
   print_header();
   for (const Cell& cell : cells_named(settings.cells)) {
     Row pooled{cell.name, "all", {}};
+    Row thin{cell.name, "thin or holed", {}};
+    Row solid{cell.name, "the others", {}};
     for (const Model& model : models) {
       if (cell.painted && !model.painted()) continue;
       const bool clean = cell.name == all_cells().front().name;
-      rows.push_back(measure(model, cell, clean ? settings.clean_poses : settings.poses, settings));
+      rows.push_back(measure(model, cell, clean ? settings.clean_poses : settings.poses, settings, features));
       print_row(rows.back());
       if (settings.misses) print_failures(rows.back());
-      pooled.trials.insert(pooled.trials.end(), rows.back().trials.begin(), rows.back().trials.end());
+      for (Row* group : {&pooled, model.thin_or_holed ? &thin : &solid})
+        group->trials.insert(group->trials.end(), rows.back().trials.begin(), rows.back().trials.end());
     }
-    print_row(pooled);
-    rows.push_back(std::move(pooled));
+    // Less overlap is asked of the thin and the holed.
+    for (Row* group : {&solid, &thin, &pooled}) {
+      if (group->trials.empty()) continue;
+      group->pooled = true;
+      print_row(*group);
+      rows.push_back(std::move(*group));
+    }
   }
   return rows;
 }
@@ -106,18 +124,20 @@ std::vector<Row> measure_cells(const std::vector<Model>& models, const Settings&
 void run(test::ProgramArguments& arguments) {
   const Settings settings = settings_of(arguments);
   set_thread_count(1);
+  FeatureTable features(settings.features);
   nlohmann::json json;
   std::vector<Judged> verdicts;
   const bool simulated = settings.has("cells") || settings.has("negatives");
   const std::vector<Model> models = simulated ? load_models(settings.models) : std::vector<Model>();
   if (settings.has("cells")) {
-    std::vector<Row> rows = measure_cells(models, settings);
+    std::vector<Row> rows = measure_cells(models, settings, features);
     for (const Row& row : rows) json["rows"].push_back(to_json(row));
-    std::erase_if(rows, [](const Row& row) { return row.model == "all"; });
+    std::erase_if(rows, [](const Row& row) { return row.pooled; });
     verdicts = judged(rows);
   }
   if (settings.has("negatives")) {
-    const auto negatives = measure_negatives(models, 2, settings.seed, settings.options);
+    const auto negatives =
+        measure_negatives(models, settings.negatives, settings.seed, settings.options, features);
     verdicts.insert(verdicts.end(), negatives.begin(), negatives.end());
   }
   if (simulated) {

@@ -20,7 +20,8 @@ struct RimResidual {
   std::size_t sample = 0;
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();  // unit
   double distance_px = 0;
-  double weight = 0;  // length of outline it stands for
+  double weight = 0;                                 // length of outline it stands for
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();  // from the sample to what it was matched with
 };
 
 /// How a drawn pose fits. Shares are of length, 0..1.

@@ -4,82 +4,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "outline_equations.hpp"
+
 namespace drape::alignment {
 namespace {
 
-constexpr double least_noise_px = 0.12;  // of residuals: what the pixel grid itself leaves
-constexpr double correlation_px = 3;     // along the outline: closer residuals share their error
 constexpr double most_turn_rad = 0.35;
 // Relative, of the diagonal: rotation, perspective and place are told apart by differences of a thousandth.
 constexpr double least_damping = 1e-6;
 constexpr double at_rest_sigmas = 0.1;
 constexpr int patient_iterations = 8;  // plans of so many may take twice as many to come to rest
 constexpr double least_kernel_px = 0.5;
-constexpr double principal_point_sigma = 0.03;  // of the photo's width
 
-struct NormalEquations {
-  PoseMatrix matrix = PoseMatrix::Zero();
-  PoseVector vector = PoseVector::Zero();
-  double chi_squared = 0;
-};
-
-double median_distance(const std::vector<RimResidual>& residuals, std::vector<double>& buffer) {
-  buffer.clear();
-  for (const RimResidual& r : residuals) buffer.push_back(std::abs(r.distance_px));
-  const auto middle = buffer.begin() + static_cast<std::ptrdiff_t>(buffer.size() / 2);
-  std::nth_element(buffer.begin(), middle, buffer.end());
-  return *middle;
-}
-
-NormalEquations normal_equations(const OutlinePose& pose, const std::vector<RimSample>& rim,
-                                 const std::vector<RimResidual>& residuals, double px_per_photo_px,
-                                 double kernel_px) {
-  NormalEquations sum;
-  double squares = 0;
-  double weights = 0;
-  for (const RimResidual& r : residuals) {
-    const double k = kernel_px * kernel_px / (kernel_px * kernel_px + r.distance_px * r.distance_px);
-    const double weight = r.weight * k * k;
-    PoseVector d = place_derivative(pose, rim[r.sample].turned, r.direction) * px_per_photo_px;
-    sum.vector += weight * r.distance_px * d;
-    sum.matrix.selfadjointView<Eigen::Lower>().rankUpdate(d, weight);
-    sum.chi_squared += r.weight * r.distance_px * r.distance_px * k;
-    squares += weight * r.distance_px * r.distance_px;
-    weights += weight;
-  }
-  const double noise = std::max(least_noise_px * least_noise_px, weights > 0 ? squares / weights : 0.0);
-  // Forward and backward residuals look at the same outline from both sides: each counts half.
-  const double confidence = 0.5 / (noise * correlation_px);
-  sum.matrix = (confidence * PoseMatrix(sum.matrix.selfadjointView<Eigen::Lower>())).eval();
-  sum.vector *= confidence;
-  sum.chi_squared *= 0.5 / (least_noise_px * least_noise_px * correlation_px);
-  return sum;
-}
-
-void add_priors(const OutlinePose& pose, const LensPrior& lens, bool principal_point, NormalEquations& sum) {
-  if (!lens.orthographic && !lens.fixed_focal_px) {
-    const PerspectivePrior prior = perspective_prior(lens, pose.scale);
-    const double off = (prior.mean - pose.perspective) / prior.sigma;
-    const double weight = prior.robust ? 1 / (1 + off * off) : 1.0;
-    sum.matrix(6, 6) += weight / (prior.sigma * prior.sigma);
-    sum.vector[6] += weight * off / prior.sigma;
-  }
-  if (principal_point) {
-    const double sigma = principal_point_sigma * lens.photo_width_px;
-    for (int i = 7; i < 9; ++i) {
-      sum.matrix(i, i) += 1 / (sigma * sigma);
-      sum.vector[i] -= pose.principal[i - 7] / (sigma * sigma);
-    }
-  }
-}
+}  // namespace
 
 OutlinePose within_lens(OutlinePose pose, const LensPrior& lens) {
   if (lens.orthographic) pose.perspective = 0;
   if (lens.fixed_focal_px) pose.perspective = std::min(0.85, pose.scale / *lens.fixed_focal_px);
   return pose;
 }
-
-}  // namespace
 
 PerspectivePrior perspective_prior(const LensPrior& lens, double scale) {
   if (lens.hinted_focal_px) {

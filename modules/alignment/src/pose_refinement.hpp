@@ -35,6 +35,12 @@ struct RefinementPlan {
   bool hold_perspective = false;  // at the start's
 };
 
+/// How rough an outline is, in window pixels.
+struct OutlineNoise {
+  double sigma_px = 0;
+  double correlation_px = 0;  // along the outline: residuals nearer than this share their error
+};
+
 struct RefinedPose {
   OutlinePose pose;
   Agreement agreement;
@@ -50,6 +56,9 @@ struct RefinedPose {
 [[nodiscard]] RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start,
                                       const Evidence& evidence, const LensPrior& lens,
                                       const RefinementPlan& plan, OutlineDrawing& drawing);
+
+/// With what the lens fixes of it.
+[[nodiscard]] OutlinePose within_lens(OutlinePose pose, const LensPrior& lens);
 
 /// The columns are the directions in which the pose may move: without those that the lens fixes.
 [[nodiscard]] Eigen::MatrixXd free_directions(const LensPrior& lens, bool principal_point);

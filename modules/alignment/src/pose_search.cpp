@@ -306,6 +306,7 @@ Eigen::Matrix3d principal_axes_of(const OutlineMesh& mesh) {
 // far better, as all others are better off without two more unknowns.
 RefinedPose with_free_principal_point(const OutlineMesh& mesh, const RefinedPose& fixed,
                                       const Evidence& evidence, const LensPrior& lens) {
+  if (fixed.chi_squared < principal_point_gain) return fixed;  // nothing to gain
   OutlineDrawing drawing;
   const RefinementPlan plan{evidence.levels() - 1, 8, 3, 1.5, 1.0, true};
   const RefinedPose free = refine_pose(mesh, fixed.pose, evidence, lens, plan, drawing);

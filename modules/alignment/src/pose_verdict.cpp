@@ -13,9 +13,14 @@ namespace drape::alignment {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double most_sigma_deg = 1.5;
-constexpr double same_axis = 0.95;    // cosine
-constexpr double free_sigma_deg = 8;  // about one axis: the outline hardly changes with the rotation
+constexpr double most_sigma_deg = 0.8;
+constexpr double margin_per_px = 0.02;      // of noise: chance tells poses apart the less, the rougher
+constexpr double most_noise_px = 2;         // beyond, the margin grows no more
+constexpr double most_noise_share = 0.012;  // of the object: with more, another object would fit as well
+constexpr double most_gap = 0.4;            // of the outline, in one place
+constexpr double good_elsewhere = 0.95;     // of the rest
+constexpr double same_axis = 0.95;          // cosine
+constexpr double free_sigma_deg = 8;        // about one axis: the outline hardly changes with the rotation
 
 struct PoseCovariance {
   PoseSigma sigma;
@@ -63,6 +68,11 @@ std::optional<Eigen::Vector3d> free_axis_of(const RefinedPose& best, const Refin
   return axis;
 }
 
+// What the pixel grid leaves asks for no larger margin.
+double rough_px(const OutlineFigures& figures) {
+  return figures.noise_px < 0.4 ? 0 : std::min(figures.noise_px, most_noise_px);
+}
+
 }  // namespace
 
 std::optional<PoseSigma> pose_sigma(const RefinedPose& pose, const LensPrior& lens) {
@@ -70,7 +80,8 @@ std::optional<PoseSigma> pose_sigma(const RefinedPose& pose, const LensPrior& le
   return covariance ? std::optional<PoseSigma>(covariance->sigma) : std::nullopt;
 }
 
-PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior& lens) {
+PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior& lens,
+                          OutlineFigures& figures) {
   PoseJudgement judgement;
   if (poses.empty()) {
     judgement.reasons = {"no pose of the mesh has an outline like the stencil's"};
@@ -80,6 +91,8 @@ PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior
   const double inliers = std::min(best.agreement.rim_inliers, best.agreement.image_inliers);
   const std::optional<PoseCovariance> covariance = covariance_of(best, lens);
   if (covariance) judgement.sigma = covariance->sigma;
+  figures.margin = poses.size() > 1 ? best.agreement.score() - poses[1].agreement.score() : 1;
+  figures.rotation_deg = covariance ? covariance->largest_rotation_deg : 180;
   if (inliers < least_inliers || !covariance) {
     judgement.reasons.push_back(
         fmt::format("only {:.0f} % of the outline fits: is it another object?", 100 * inliers));
@@ -90,10 +103,16 @@ PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior
     judgement.verdict = Verdict::review;
     judgement.reasons.push_back(std::move(reason));
   };
-  if (inliers < good_inliers)
+  const bool gap_alone =
+      figures.largest_gap < most_gap && figures.fits > good_elsewhere * (1 - figures.largest_gap);
+  if (inliers < good_inliers && !gap_alone)
     doubt(fmt::format("{:.0f} % of the outline fits, the rest does not", 100 * inliers));
+  if (figures.noise_px > most_noise_share * figures.object_px)
+    doubt(fmt::format("the outline is off by {:.1f} pixels all along: too much for an object of {:.0f}",
+                      figures.noise_px, figures.object_px));
+  const double margin = least_margin + margin_per_px * rough_px(figures);
   while (judgement.rivals + 1 < poses.size() &&
-         best.agreement.score() - poses[judgement.rivals + 1].agreement.score() < least_margin)
+         best.agreement.score() - poses[judgement.rivals + 1].agreement.score() < margin)
     ++judgement.rivals;
   judgement.free_axis = free_axis_of(best, judgement.rivals > 0 ? &poses[1] : nullptr, *covariance);
   if (judgement.free_axis) {
@@ -106,6 +125,10 @@ PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior
     doubt(fmt::format(
         "a pose {:.0f} degrees away fits nearly as well: a mirror twin, or a symmetry of the object",
         angle_between(best.pose.rotation, poses[1].pose.rotation) * degrees));
+  if (judgement.reasons.empty() && gap_alone && inliers < good_inliers)
+    judgement.reasons.push_back(fmt::format(
+        "all but one part of the outline fits ({:.0f} % of it): hidden, or something was taken along",
+        100 * figures.largest_gap));
   if (judgement.reasons.empty())
     judgement.reasons.push_back(
         fmt::format("{:.1f} % of the outline fits, to {:.2f} pixels", 100 * inliers, best.agreement.rms_px));

@@ -20,7 +20,9 @@ struct PoseJudgement {
 };
 
 /// `poses` are distinct, best first, of the evidence's last level.
-[[nodiscard]] PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior& lens);
+/// `figures` are of the first: its fit and noise are given, its margin and deviation are found.
+[[nodiscard]] PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior& lens,
+                                        OutlineFigures& figures);
 
 /// As the residuals of the pose's refinement tell it; nothing where there were none.
 [[nodiscard]] std::optional<PoseSigma> pose_sigma(const RefinedPose& pose, const LensPrior& lens);

@@ -15,9 +15,11 @@
 #include "drape/base/error.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "image_stencil.hpp"
+#include "outline_misfit.hpp"
 #include "photo_plane.hpp"
 #include "pose_search.hpp"
 #include "pose_verdict.hpp"
+#include "rough_outline.hpp"
 #include "shading_cue.hpp"
 #include "simplified_mesh.hpp"
 #include "stencil_evidence.hpp"
@@ -93,10 +95,30 @@ void rank_by_appearance(std::vector<RefinedPose>& poses, const PhotoEvidence& ev
   });
 }
 
+OutlineFigures figures_of(const RefinedPose& best, const SettledPoses& settled, const OutlineMesh& mesh,
+                          const StencilEvidence& evidence, const Image8& stencil) {
+  constexpr double bridge = 0.04;  // of the object
+  const int last = evidence.levels() - 1;
+  const double px = evidence.window(last).px_per_photo_px;
+  OutlineFigures figures;
+  figures.object_px = object_extent(stencil);
+  figures.noise_px = settled.noise.sigma_px / px;
+  figures.correlation_px = settled.noise.correlation_px / px;
+  figures.by_photo = settled.shaded;
+  OutlineDrawing drawing;
+  drawing.draw(mesh, best.pose, evidence.window(last));
+  const OutlineMisfit misfit =
+      outline_misfit(evidence.pieces(drawing, last, most_noise_reach_px, inlier_px(settled.noise)),
+                     std::max(4.0, bridge * figures.object_px * px));
+  figures.fits = misfit.fits;
+  figures.largest_gap = misfit.largest_gap;
+  return figures;
+}
+
 // The poses as cameras, the best first, with what is to be thought of them.
-Alignment judged(const std::vector<RefinedPose>& poses, const SearchSettings& settings,
-                 const PhotoEvidence& evidence, const TriangleMesh& mesh, const UnitSphere& sphere,
-                 const PhotoPlane& plane, const AlignOptions& options) {
+Alignment judged(const std::vector<RefinedPose>& poses, OutlineFigures figures,
+                 const SearchSettings& settings, const PhotoEvidence& evidence, const TriangleMesh& mesh,
+                 const UnitSphere& sphere, const PhotoPlane& plane, const AlignOptions& options) {
   Alignment alignment;
   alignment.evidence = options.evidence;
   alignment.camera.width = evidence.stencil.width();
@@ -105,7 +127,7 @@ Alignment judged(const std::vector<RefinedPose>& poses, const SearchSettings& se
   const bool by_colors = alignment.evidence != EvidenceKind::stencil;
   if (by_colors) rank_by_appearance(ranked, evidence, mesh, sphere, plane, options.projection);
   PoseJudgement judgement =
-      by_colors ? judge_color_poses(ranked, settings.lens) : judge_poses(ranked, settings.lens);
+      by_colors ? judge_color_poses(ranked, settings.lens) : judge_poses(ranked, settings.lens, figures);
   std::vector<Camera> cameras;
   for (const RefinedPose& pose : ranked)
     cameras.push_back(camera_of(pose.pose, sphere, options.projection, plane.principal_px(),
@@ -119,7 +141,7 @@ Alignment judged(const std::vector<RefinedPose>& poses, const SearchSettings& se
       std::rotate(ranked.begin(), ranked.begin() + chosen, ranked.begin() + chosen + 1);
       std::rotate(cameras.begin(), cameras.begin() + chosen, cameras.begin() + chosen + 1);
       const std::size_t count = judgement.rivals;
-      judgement = judge_poses(ranked, settings.lens);
+      judgement = judge_poses(ranked, settings.lens, figures);
       judgement.rivals = count;
       judgement.reasons.push_back("of those poses the photo's shading fits this one best");
     }
@@ -143,6 +165,7 @@ Alignment judged(const std::vector<RefinedPose>& poses, const SearchSettings& se
     alignment.edge_support = best.rim_inliers;
   }
   alignment.sigma = judgement.sigma;
+  if (!by_colors) alignment.outline = figures;
   if (judgement.free_axis) alignment.free_axis = FreeAxis{sphere.center, *judgement.free_axis};
   return alignment;
 }
@@ -202,7 +225,16 @@ Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& eviden
   settings.principal_point_known |= options.evidence != EvidenceKind::stencil;
   const PoseSearchResult found = search_poses(meshes, *outline, settings, progress.part(0.05, 0.95));
 
-  Alignment alignment = judged(found.poses, settings, evidence, mesh, sphere, plane, options);
+  std::vector<RefinedPose> poses = found.poses;
+  OutlineFigures figures;
+  if (const auto* stencil = dynamic_cast<const StencilEvidence*>(outline.get()); stencil && !poses.empty()) {
+    std::optional<PhotoInside> inside;
+    if (evidence.photo != nullptr) inside.emplace(PhotoInside{*evidence.photo, plane, mesh.colors});
+    SettledPoses settled = settled_poses(poses, meshes.full, *stencil, settings.lens, inside, progress);
+    poses = std::move(settled.poses);
+    figures = figures_of(poses.front(), settled, meshes.full, *stencil, evidence.stencil);
+  }
+  Alignment alignment = judged(poses, figures, settings, evidence, mesh, sphere, plane, options);
   if (const auto* colors = dynamic_cast<const ColorEvidence*>(outline.get());
       colors && !found.poses.empty()) {
     alignment.stencil = visible_stencil(mesh, meshes.full, *colors, plane, sphere, alignment.camera);

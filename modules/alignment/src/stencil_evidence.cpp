@@ -144,8 +144,22 @@ std::unique_ptr<Evidence::RollScores> StencilEvidence::rolls(const PolarFrame& f
   return std::make_unique<StencilRolls>(levels_.front(), frame);
 }
 
-Agreement StencilEvidence::match(const OutlineDrawing& drawing, int level_index, double reach,
-                                 double inlier_px, std::vector<RimResidual>& residuals) const {
+Agreement StencilEvidence::match(const OutlineDrawing& drawing, int level, double reach, double inlier_px,
+                                 std::vector<RimResidual>& residuals) const {
+  return compared(drawing, level, reach, inlier_px, residuals, nullptr);
+}
+
+std::vector<OutlinePiece> StencilEvidence::pieces(const OutlineDrawing& drawing, int level, double reach,
+                                                  double inlier_px) const {
+  std::vector<RimResidual> residuals;
+  std::vector<OutlinePiece> pieces;
+  (void)compared(drawing, level, reach, inlier_px, residuals, &pieces);
+  return pieces;
+}
+
+Agreement StencilEvidence::compared(const OutlineDrawing& drawing, int level_index, double reach,
+                                    double inlier_px, std::vector<RimResidual>& residuals,
+                                    std::vector<OutlinePiece>* pieces) const {
   const StencilLevel& level = at(level_index);
   const std::vector<RimSample>& rim = drawing.rim();
   residuals.clear();
@@ -164,9 +178,11 @@ Agreement StencilEvidence::match(const OutlineDrawing& drawing, int level_index,
     if (near != StencilLevel::none) {
       const ContourPoint& point = level.contour[static_cast<std::size_t>(near)];
       if (point.outward.dot(sample.outward) >= same_side) distance = point.outward.dot(point.at - sample.at);
-      if (std::abs(distance) <= reach) residuals.push_back({i, point.outward, distance, sample.length});
+      if (std::abs(distance) <= reach)
+        residuals.push_back({i, point.outward, distance, sample.length, point.at - sample.at});
     }
     from_rim.add(sample.length, distance, inlier_px);
+    if (pieces != nullptr) pieces->push_back({sample.at, sample.length, std::abs(distance) <= inlier_px});
   }
   // Backward: every piece of the photo's outline looks for the rim.
   Tally from_image;
@@ -181,9 +197,10 @@ Agreement StencilEvidence::match(const OutlineDrawing& drawing, int level_index,
       const bool by_edge = sample.straight && std::abs(along.dot(offset)) <= beyond_sample_px;
       const Eigen::Vector2d& direction = by_edge ? sample.outward : point.outward;
       distance = direction.dot(offset);
-      residuals.push_back({near, direction, distance, point.length});
+      residuals.push_back({near, direction, distance, point.length, offset});
     }
     from_image.add(point.length, distance, inlier_px);
+    if (pieces != nullptr) pieces->push_back({point.at, point.length, std::abs(distance) <= inlier_px});
   }
   Agreement agreement;
   agreement.overlap = overlap_of(drawing, level);

@@ -9,6 +9,13 @@
 
 namespace drape::alignment {
 
+/// Of one of the two outlines, with whether the other one is there too.
+struct OutlinePiece {
+  Eigen::Vector2d at;  // in the window
+  double length = 0;
+  bool fits = false;
+};
+
 class StencilEvidence final : public Evidence {
  public:
   /// The stencil as align_photo takes it.
@@ -22,9 +29,17 @@ class StencilEvidence final : public Evidence {
   [[nodiscard]] Agreement match(const OutlineDrawing& drawing, int level, double reach_px, double inlier_px,
                                 std::vector<RimResidual>& residuals) const override;
 
+  /// Of both outlines, as match() compares them.
+  [[nodiscard]] std::vector<OutlinePiece> pieces(const OutlineDrawing& drawing, int level, double reach_px,
+                                                 double inlier_px) const;
+
   [[nodiscard]] const StencilLevel& at(int level) const { return levels_[static_cast<std::size_t>(level)]; }
 
  private:
+  [[nodiscard]] Agreement compared(const OutlineDrawing& drawing, int level, double reach_px,
+                                   double inlier_px, std::vector<RimResidual>& residuals,
+                                   std::vector<OutlinePiece>* pieces) const;
+
   std::vector<StencilLevel> levels_;
 };
 

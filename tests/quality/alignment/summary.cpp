@@ -134,7 +134,7 @@ nlohmann::json to_json(const Row& row) {
                          {"cpu_seconds", json_of(f.cpu)}};
   json["failures"] = nlohmann::json::array();
   for (const Trial& trial : row.trials)
-    if (!trial.right && row.model != "all")
+    if (!trial.right && !row.pooled)
       json["failures"].push_back({{"photo", trial.index},
                                   {"rotation_about_ray_deg", trial.about_ray_deg},
                                   {"verdict", verdict_name(trial.verdict)},

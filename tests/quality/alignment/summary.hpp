@@ -15,8 +15,9 @@ namespace drape::lab {
 
 struct Row {
   std::string cell;
-  std::string model;  // "all" for a cell's row of all its models
+  std::string model;  // or the group of models
   std::vector<Trial> trials;
+  bool pooled = false;  // a group's: its trials are in other rows too
 };
 
 void print_header();

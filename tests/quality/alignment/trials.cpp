@@ -64,6 +64,7 @@ Trial align_shot(const Model& model, const Cell& cell, const Shot& shot,
   trial.verdict = found.verdict;
   trial.reasons = found.reasons;
   trial.confidence = margin(found);
+  trial.outline = found.outline;
   if (found.candidates.empty()) {
     trial.rotation_deg = trial.about_ray_deg = 180;
     return trial;

@@ -39,6 +39,7 @@ struct Trial {
   bool axis_named = false;  // by the verdict, to 5 degrees
   double cpu_seconds = 0;
   std::vector<std::string> reasons;
+  std::optional<alignment::OutlineFigures> outline;
   std::optional<double> best_candidate_deg;  // of the poses listed: the least error about the ray
 
   /// What the verdict should say of a right pose: of a body of rotation that it is free about the axis.

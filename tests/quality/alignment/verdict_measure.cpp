@@ -16,6 +16,7 @@ namespace {
 using alignment::Verdict;
 
 constexpr std::size_t dino_photos = 6;
+constexpr std::size_t told_every = 25;  // negatives: what is stopped has told its figures so far
 
 struct Negative {
   std::string name;
@@ -99,7 +100,7 @@ std::vector<Judged> judged(std::span<const Row> rows) {
 }
 
 std::vector<Judged> measure_negatives(const std::vector<Model>& models, int per_pair, std::uint64_t seed,
-                                      const alignment::AlignOptions& options) {
+                                      const alignment::AlignOptions& options, FeatureTable& features) {
   std::vector<Negative> negatives = simulated_negatives(models, per_pair, seed);
   for (Negative& negative : real_negatives()) negatives.push_back(std::move(negative));
   std::vector<Judged> all;
@@ -110,6 +111,12 @@ std::vector<Judged> measure_negatives(const std::vector<Model>& models, int per_
       alignment::PhotoEvidence evidence{negative.stencil, std::nullopt, &negative.photo};
       const alignment::Alignment found = alignment::align_photo(model.scanned, evidence, options, 1, {});
       all.push_back({Judged::Truth::absent, found.verdict, margin(found)});
+      features.add("negatives", model.name + " in " + negative.name, 0, "absent", 180, found.verdict,
+                   found.outline);
+      if (all.size() % told_every == 0) {
+        fmt::print("  negatives so far: {} of {} accepted\n", accepted, all.size());
+        std::fflush(stdout);
+      }
       if (found.verdict != Verdict::accept) continue;
       ++accepted;
       fmt::print("  accepted: {} in the photo {}: {}\n", model.name, negative.name,
@@ -119,6 +126,7 @@ std::vector<Judged> measure_negatives(const std::vector<Model>& models, int per_
   const int n = static_cast<int>(all.size());
   fmt::print("negatives: {} of {} accepted; with 95 % confidence under {:.2f} %\n", accepted, n,
              100 * upper_bound_95(accepted, n));
+  std::fflush(stdout);
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "feature_table.hpp"
 #include "models.hpp"
 #include "summary.hpp"
 
@@ -24,7 +25,8 @@ struct Judged {
 /// and the real outlines of DRAPE_TEST_DATA's segmentation/ and photos/dino. Prints what was accepted.
 [[nodiscard]] std::vector<Judged> measure_negatives(const std::vector<Model>& models, int per_pair,
                                                     std::uint64_t seed,
-                                                    const alignment::AlignOptions& options);
+                                                    const alignment::AlignOptions& options,
+                                                    FeatureTable& features);
 
 /// Right, wrong and absent by accept, review and reject; and the risk (share of wrong and absent among those
 /// that are taken) against the coverage (share that is taken), the surest first.

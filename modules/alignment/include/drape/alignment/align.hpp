@@ -138,6 +138,18 @@ struct FreeAxis {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
 };
 
+/// What the verdict on an outline rests on. Shares are of the length of both outlines, 0..1.
+struct OutlineFigures {
+  double object_px = 0;       // longer side of the stencil's object
+  double noise_px = 0;        // standard deviation of the stencil's outline about the pose's, in photo pixels
+  double correlation_px = 0;  // along the outline: nearer pieces share their error
+  double fits = 0;            // within 2.5 deviations, or a pixel
+  double largest_gap = 0;     // what does not fit and lies together
+  double margin = 1;          // of the score, over the best distinct pose
+  double rotation_deg = 0;    // standard deviation about the loosest axis
+  bool by_photo = false;      // the photo's inside had a say
+};
+
 /// Times depend on the machine; all else is the same for the same input, options and seed.
 struct AlignmentMetrics {
   double pass1_seconds = 0;  // from the start to the sorted list of candidates
@@ -163,6 +175,7 @@ struct Alignment {
   double inlier_fraction = 0;               // of the two outlines' length: what lies on the other one, 0..1
   std::optional<double> boundary_error_px;  // root mean square over those; nothing if there are none
   std::optional<PoseSigma> sigma;
+  std::optional<OutlineFigures> outline;  // only by a stencil, where a pose was found
   std::optional<FreeAxis> free_axis;
   AlignmentMetrics metrics;
 };

@@ -1,0 +1,32 @@
+// The last step of an alignment by a stencil that is rough: what noise leaves open, the photo's inside tells.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "drape/base/progress.hpp"
+#include "noisy_outline.hpp"
+#include "photo_plane.hpp"
+#include "stencil_evidence.hpp"
+
+namespace drape::alignment {
+
+struct PhotoInside {
+  const Image8& rgb;
+  const PhotoPlane& plane;
+  const std::vector<Eigen::Vector3f>& colors;  // of the mesh's vertices, or empty
+};
+
+/// Poses that stay as they are where the outline is smooth. Where it is rough, each is settled with weights
+/// that fit the noise, and then by the photo's inside as well, if that is given and makes both more likely.
+/// Sorted anew, by agreements whose inliers allow for the noise.
+struct SettledPoses {
+  std::vector<RefinedPose> poses;
+  OutlineNoise noise;   // about the best pose
+  bool shaded = false;  // the photo's inside had a say in the best pose
+};
+[[nodiscard]] SettledPoses settled_poses(const std::vector<RefinedPose>& poses, const OutlineMesh& mesh,
+                                         const StencilEvidence& evidence, const LensPrior& lens,
+                                         const std::optional<PhotoInside>& photo, const Progress& progress);
+
+}  // namespace drape::alignment

@@ -1,0 +1,149 @@
+// Stencils whose outline is rough, and what the photo's inside makes up for.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bodies.hpp"
+#include "drape/alignment/align.hpp"
+#include "drape/rendering/renderer.hpp"
+#include "noisy_outline.hpp"
+#include "outline_misfit.hpp"
+#include "photo_plane.hpp"
+#include "shading_refinement.hpp"
+#include "surface_view.hpp"
+
+namespace drape::alignment {
+namespace {
+
+// The outline of `stencil` waves by up to `amplitude` pixels along x.
+Image8 wavy(const Image8& stencil, double amplitude) {
+  Image8 result(stencil.width(), stencil.height(), 1, stencil::background);
+  for (int y = 0; y < stencil.height(); ++y)
+    for (int x = 0; x < stencil.width(); ++x) {
+      const double shift = amplitude * std::sin(y / 4.0) * std::sin(x / 23.0 + 1);
+      const int from = std::clamp(x + static_cast<int>(std::lround(shift)), 0, stencil.width() - 1);
+      result.at(x, y) = stencil.at(from, y);
+    }
+  return result;
+}
+
+// A lamp from above on the left.
+Image8 lit(const TriangleMesh& mesh, const Camera& camera) {
+  const rendering::DepthMap seen = rendering::Renderer(mesh).depth_map(camera);
+  const Eigen::Vector3d towards = Eigen::Vector3d(-0.5, -0.6, -0.8).normalized();
+  Image8 photo(camera.width, camera.height, 3, 60);
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      const std::int32_t face = seen.faces.at(x, y);
+      if (face == rendering::DepthMap::no_face) continue;
+      Eigen::Vector3d normal = camera.camera_from_world.linear() *
+                               scaled_face_normal(mesh, static_cast<std::size_t>(face)).normalized();
+      if (normal.z() > 0) normal = -normal;
+      for (int k = 0; k < 3; ++k)
+        photo.at(x, y, k) = static_cast<std::uint8_t>(50 + 180 * std::max(0.0, normal.dot(towards)));
+    }
+  return photo;
+}
+
+TEST(RoughOutline, ThePhotosInsideMakesUpForIt) {
+  const TriangleMesh mesh = knobbed_brick();
+  const Camera truth = view_of({20, 70, 130}).resized(640, 480);
+  const Image8 stencil = wavy(stencil_of(mesh, truth), 5);
+  const Image8 photo = lit(mesh, truth);
+  PhotoEvidence evidence{stencil};
+  const Alignment by_outline = align_photo(mesh, evidence, {}, 1, {});
+  evidence.photo = &photo;
+  const Alignment by_both = align_photo(mesh, evidence, {}, 1, {});
+  ASSERT_TRUE(by_outline.outline.has_value() && by_both.outline.has_value());
+  EXPECT_GT(by_outline.outline->noise_px, 0.5);
+  EXPECT_FALSE(by_outline.outline->by_photo);
+  EXPECT_TRUE(by_both.outline->by_photo);
+  EXPECT_LT(rotation_between_deg(by_both.camera, truth), 0.5);
+  EXPECT_LT(rotation_between_deg(by_both.camera, truth), rotation_between_deg(by_outline.camera, truth));
+  EXPECT_LT(by_both.outline->rotation_deg, by_outline.outline->rotation_deg);
+}
+
+TEST(RoughOutline, ASmoothOneIsLeftToItself) {
+  const TriangleMesh mesh = knobbed_brick();
+  const Camera truth = view_of({290, 110, 250}).resized(640, 480);
+  const Image8 stencil = stencil_of(mesh, truth);
+  const Image8 photo = lit(mesh, truth);
+  PhotoEvidence evidence{stencil};
+  const Alignment alone = align_photo(mesh, evidence, {}, 1, {});
+  evidence.photo = &photo;
+  const Alignment with_photo = align_photo(mesh, evidence, {}, 1, {});
+  ASSERT_TRUE(alone.outline.has_value());
+  EXPECT_LT(alone.outline->noise_px, 0.4);
+  EXPECT_EQ(rotation_between_deg(alone.camera, with_photo.camera), 0);
+}
+
+// Residuals along a straight rim that are a sine of a period of 40 pixels.
+TEST(OutlineNoise, MeasuresSpreadAndHowFarItIsShared) {
+  std::vector<RimSample> rim;
+  std::vector<RimResidual> residuals;
+  for (std::size_t i = 0; i < 600; ++i) {
+    RimSample sample;
+    sample.at << 2.0 * static_cast<double>(i), 30;
+    sample.outward << 0, 1;
+    rim.push_back(sample);
+    RimResidual residual;
+    residual.sample = i;
+    residual.direction << 0, 1;
+    residual.distance_px = 2 * std::sin(sample.at.x() * std::numbers::pi / 20);
+    residual.weight = 2;
+    residuals.push_back(residual);
+  }
+  const OutlineNoise noise = outline_noise(rim, residuals);
+  EXPECT_NEAR(noise.sigma_px, 1.4826 * std::numbers::sqrt2, 0.05);  // of the median of a sine
+  // A cosine's integral up to its first zero, on both sides: 2 * 20 / pi.
+  EXPECT_NEAR(noise.correlation_px, 40 / std::numbers::pi, 3);
+}
+
+TEST(OutlineMisfit, TellsOneGapFromMisfitsAllAlong) {
+  std::vector<OutlinePiece> together;
+  std::vector<OutlinePiece> scattered;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector2d at(10.0 * i, 0);
+    together.push_back({at, 1, i < 40 || i >= 60});
+    scattered.push_back({at, 1, i % 5 != 0});
+  }
+  const OutlineMisfit one = outline_misfit(together, 10);
+  EXPECT_NEAR(one.fits, 0.8, 1e-12);
+  EXPECT_NEAR(one.largest_gap, 0.2, 1e-12);
+  EXPECT_NEAR(one.fits_elsewhere(), 1, 1e-12);
+  const OutlineMisfit many = outline_misfit(scattered, 10);
+  EXPECT_NEAR(many.largest_gap, 0.01, 1e-12);
+  EXPECT_LT(many.fits_elsewhere(), 0.82);
+}
+
+TEST(SurfaceDrawing, ShowsTheFaceThatIsNearest) {
+  TriangleMesh mesh;  // two squares that face each other, one before the other
+  for (const double z : {-0.5, 0.5})
+    for (const Eigen::Vector2d& corner :
+         {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1)})
+      mesh.vertices.emplace_back(corner.x() * (z < 0 ? 0.5 : 1), corner.y() * (z < 0 ? 0.5 : 1), z);
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  const std::vector<Eigen::Vector3f> colors = {{.1F, .1F, .1F}, {.1F, .1F, .1F}, {.1F, .1F, .1F},
+                                               {.1F, .1F, .1F}, {.9F, .9F, .9F}, {.9F, .9F, .9F},
+                                               {.9F, .9F, .9F}, {.9F, .9F, .9F}};
+  const OutlineMesh outline = outline_mesh(mesh, {Eigen::Vector3d::Zero(), 1});
+  const LitMesh surface = lit_mesh(outline, colors);
+  Window window;
+  window.origin.setConstant(-32);
+  window.width = window.height = 64;
+  OutlinePose pose;
+  pose.scale = 20;
+  SurfaceDrawing drawing;
+  drawing.draw(surface, pose, window);
+  const auto pixel = [&](int x, int y) { return drawing.pixels()[static_cast<std::size_t>(64 * y + x)]; };
+  EXPECT_NEAR(pixel(32, 32).brightness, 0.1, 1e-6);
+  EXPECT_NEAR(pixel(16, 32).brightness, 0.9, 1e-6);
+  EXPECT_FALSE(pixel(2, 2).seen);
+  EXPECT_NEAR(pixel(32, 32).normal.z(), -1, 1e-6);  // towards the camera
+}
+
+}  // namespace
+}  // namespace drape::alignment
