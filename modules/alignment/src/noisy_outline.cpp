@@ -44,9 +44,11 @@ double correlation_length(const std::vector<RimSample>& rim, const std::vector<c
   }
   const double variance = squares / static_cast<double>(std::max<std::size_t>(1, chosen.size()));
   double length = 0;
+  double correlation = 1;
   for (std::size_t bin = 0; bin < products.size() && variance > 0; ++bin) {
-    const double correlation = counts[bin] > 0 ? products[bin] / counts[bin] / variance : 0;
-    if (counts[bin] > 0 && correlation < faded) break;
+    // Samples at regular distances leave bins without pairs: there it is what it was before.
+    if (counts[bin] > 0) correlation = products[bin] / counts[bin] / variance;
+    if (correlation < faded) break;
     length += 2 * correlation;
   }
   return length;

@@ -19,6 +19,24 @@ Eigen::Vector3d unit_normal(const std::vector<Eigen::Vector3d>& turned, const Fa
   return (turned[f[1]] - turned[f[0]]).cross(turned[f[2]] - turned[f[0]]).normalized();
 }
 
+// The first pixel whose centre is at or beyond `x`.
+int center_at_or_after(double x) {
+  return static_cast<int>(std::ceil(std::clamp(x, -1e6, 1e6) - 0.5));
+}
+
+bool set_in(const BitImage& image, bool in_row, int at, int line) {
+  return in_row ? image.at(at, line) : image.at(line, at);
+}
+
+// What is seen at `t` of the way from `a` to `b` in the picture.
+Eigen::Vector3d seen_between(const OutlinePose& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                             double t) {
+  const double far_a = 1 + pose.perspective * a.z();
+  const double far_b = 1 + pose.perspective * b.z();
+  const double share = t * far_a / (t * far_a + (1 - t) * far_b);
+  return (1 - share) * a + share * b;
+}
+
 }  // namespace
 
 void OutlineDrawing::draw(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window,
@@ -53,29 +71,35 @@ void OutlineDrawing::find_sides(const OutlineMesh& mesh) {
   }
 }
 
+bool OutlineDrawing::on_rim(const OutlineEdge& edge) const {
+  return edge.other == OutlineEdge::no_face || (front_[edge.face] != front_[edge.other]) != edge.turned;
+}
+
 void OutlineDrawing::find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window) {
-  for (const OutlineEdge& edge : mesh.edges) {
-    const bool rim =
-        edge.other == OutlineEdge::no_face || (front_[edge.face] != front_[edge.other]) != edge.turned;
-    if (rim) sample_edge(mesh, edge, pose, window);
+  for (const OutlineEdge& edge : mesh.edges)
+    if (on_rim(edge)) sample_edge(mesh, edge, pose, window);
+}
+
+Eigen::Vector2d OutlineDrawing::normal_of(const OutlineMesh& mesh, const OutlineEdge& edge) const {
+  const Eigen::Vector2d along = places_[edge.to] - places_[edge.from];
+  const double length = along.norm();
+  if (length < straight_px && edge.other != OutlineEdge::no_face) {
+    const Eigen::Vector3d first = unit_normal(turned_, mesh.faces[edge.face]);
+    const Eigen::Vector3d second = unit_normal(turned_, mesh.faces[edge.other]);
+    const Eigen::Vector2d mean = (first + (edge.turned ? -1.0 : 1.0) * second).head<2>();
+    if (mean.norm() > 1e-9) return mean.normalized();
   }
+  return Eigen::Vector2d(along.y(), -along.x()) / length;
 }
 
 void OutlineDrawing::sample_edge(const OutlineMesh& mesh, const OutlineEdge& edge, const OutlinePose& pose,
                                  const Window& window) {
-  const Eigen::Vector2d along = places_[edge.to] - places_[edge.from];
-  const double length = along.norm();
+  const double length = (places_[edge.to] - places_[edge.from]).norm();
   if (!(length > 0)) return;
   RimSample sample;
   sample.border = edge.other == OutlineEdge::no_face;
   sample.straight = length >= straight_px;
-  Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()) / length;
-  if (!sample.straight && !sample.border) {
-    const Eigen::Vector3d first = unit_normal(turned_, mesh.faces[edge.face]);
-    const Eigen::Vector3d second = unit_normal(turned_, mesh.faces[edge.other]);
-    const Eigen::Vector2d mean = (first + (edge.turned ? -1.0 : 1.0) * second).head<2>();
-    if (mean.norm() > 1e-9) normal = mean.normalized();
-  }
+  const Eigen::Vector2d normal = normal_of(mesh, edge);
   const int count = std::max(1, static_cast<int>(std::ceil(length / sample_spacing_px)));
   sample.length = length / count;
   for (int i = 0; i < count; ++i) {
@@ -91,6 +115,38 @@ void OutlineDrawing::sample_edge(const OutlineMesh& mesh, const OutlineEdge& edg
     sample.outward = inside ? normal : Eigen::Vector2d(-normal);
     rim_.push_back(sample);
   }
+}
+
+std::vector<PixelCrossing> OutlineDrawing::crossings(const OutlineMesh& mesh, const OutlinePose& pose) const {
+  std::vector<PixelCrossing> found;
+  for (const OutlineEdge& edge : mesh.edges) {
+    if (!on_rim(edge)) continue;
+    const Eigen::Vector2d& from = places_[edge.from];
+    const Eigen::Vector2d& to = places_[edge.to];
+    for (const bool in_row : {true, false}) {
+      const int along = in_row ? 0 : 1;
+      const int across = 1 - along;
+      const int begin = center_at_or_after(std::min(from[across], to[across]));
+      const int end = center_at_or_after(std::max(from[across], to[across]));
+      for (int line = begin; line < end; ++line) {
+        const double t = (line + 0.5 - from[across]) / (to[across] - from[across]);
+        const double x = from[along] + t * (to[along] - from[along]);
+        PixelCrossing crossing;
+        crossing.in_row = in_row;
+        crossing.line = line;
+        crossing.before = center_at_or_after(x) - 1;
+        crossing.object_first = set_in(stencil_, in_row, crossing.before, line);
+        if (crossing.object_first == set_in(stencil_, in_row, crossing.before + 1, line)) continue;
+        crossing.at[along] = x;
+        crossing.at[across] = line + 0.5;
+        crossing.turned = seen_between(pose, turned_[edge.from], turned_[edge.to], t);
+        const Eigen::Vector2d normal = normal_of(mesh, edge);
+        crossing.outward = (normal[along] > 0) == crossing.object_first ? normal : Eigen::Vector2d(-normal);
+        found.push_back(crossing);
+      }
+    }
+  }
+  return found;
 }
 
 }  // namespace drape::alignment

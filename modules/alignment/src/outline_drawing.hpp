@@ -37,6 +37,18 @@ struct RimSample {
   bool border = false;      // of the mesh, where it is open
 };
 
+/// Where the outline of a drawn pose passes between the centres of two pixels, beside each other in a row or
+/// one below the other in a column.
+struct PixelCrossing {
+  Eigen::Vector2d at;       // in the window; one coordinate is a pixel centre's
+  Eigen::Vector2d outward;  // unit
+  Eigen::Vector3d turned;   // rotation * x_unit
+  bool in_row = false;
+  int before = 0;  // column (in a row) or row (in a column) of the first of the two pixels
+  int line = 0;    // the row or column that both are in
+  bool object_first = false;
+};
+
 /// Buffers are kept from one pose to the next.
 class OutlineDrawing {
  public:
@@ -45,6 +57,8 @@ class OutlineDrawing {
 
   [[nodiscard]] const BitImage& stencil() const { return stencil_; }
   [[nodiscard]] const std::vector<RimSample>& rim() const { return rim_; }
+  /// All of them, of what draw() was called with last; it must have been with the rim.
+  [[nodiscard]] std::vector<PixelCrossing> crossings(const OutlineMesh& mesh, const OutlinePose& pose) const;
   /// What an open mesh encloses and does not cover: maybe holes of the scan. Empty for a closed mesh, whose
   /// holes are the object's own.
   [[nodiscard]] const BitImage& gaps() const { return gaps_; }
@@ -54,6 +68,9 @@ class OutlineDrawing {
   void find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window);
   void sample_edge(const OutlineMesh& mesh, const OutlineEdge& edge, const OutlinePose& pose,
                    const Window& window);
+  [[nodiscard]] bool on_rim(const OutlineEdge& edge) const;
+  /// Across an edge in the window, on either side; of a short one across the smooth body that it stands for.
+  [[nodiscard]] Eigen::Vector2d normal_of(const OutlineMesh& mesh, const OutlineEdge& edge) const;
 
   std::vector<Eigen::Vector3d> turned_;
   std::vector<Eigen::Vector2d> places_;

@@ -39,6 +39,20 @@ Eigen::Matrix3d roll_matrix(double angle) {
   return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
+// The rolls that score better than those beside them. A disc scores alike at all of them: then one stands for
+// all.
+std::vector<int> best_rolls(const std::array<float, polar_angles>& scores) {
+  std::vector<int> rolls;
+  for (int r = 0; r < polar_angles; ++r) {
+    const float here = scores[static_cast<std::size_t>(r)];
+    const float before = scores[static_cast<std::size_t>((r + polar_angles - 1) % polar_angles)];
+    const float after = scores[static_cast<std::size_t>((r + 1) % polar_angles)];
+    if (here > before && here >= after) rolls.push_back(r);
+  }
+  if (rolls.empty()) rolls.push_back(0);
+  return rolls;
+}
+
 // Whether two poses show the body as the same thing in the photo, which ways ever they turn it.
 bool in_one_place(const OutlinePose& a, const OutlinePose& b) {
   return (a.shift - b.shift).norm() < same_place * std::min(a.scale, b.scale) &&
@@ -154,12 +168,8 @@ std::vector<OutlinePose> CoarseSearch::by_frames(int effort) const {
       for (std::size_t v = 0; v < views_.size(); ++v) {
         std::array<float, polar_angles> scores{};
         rolls->score(views_[v].bits, scores);
-        for (int r = 0; r < polar_angles; ++r) {
-          const float here = scores[static_cast<std::size_t>(r)];
-          const float before = scores[static_cast<std::size_t>((r + polar_angles - 1) % polar_angles)];
-          const float after = scores[static_cast<std::size_t>((r + 1) % polar_angles)];
-          if (here > before && here >= after) found[f * views_.size() + v].push_back({here, f, v, r});
-        }
+        for (const int r : best_rolls(scores))
+          found[f * views_.size() + v].push_back({scores[static_cast<std::size_t>(r)], f, v, r});
       }
     }
   });
@@ -349,7 +359,7 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
       progress.update(effort == 0 ? 0.5 : 0.7, "refining");
       refined.insert(refined.end(), settled.begin(), settled.end());
       refined = best_of(std::move(refined), plan.kept_with_effort);
-      if (refined.empty() || refined.front().agreement.explained() > plan.good_score) break;
+      if (!refined.empty() && refined.front().agreement.explained() > plan.good_score) break;
     }
   }
   result.statistics.coarse_seconds =

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drape/base/parallel.hpp"
+#include "pixel_fit.hpp"
 #include "shading_refinement.hpp"
 
 namespace drape::alignment {
@@ -73,7 +74,10 @@ SettledPoses settled_poses(const std::vector<RefinedPose>& poses, const OutlineM
   if (poses.empty()) return result;
   const int last = evidence.levels() - 1;
   result.noise = noise_about(mesh, poses.front().pose, evidence, last);
-  if (result.noise.sigma_px < rough_px) return result;
+  if (result.noise.sigma_px < rough_px) {
+    result.poses.front() = fit_to_pixels(mesh, poses.front(), evidence, lens);
+    return result;
+  }
   std::optional<LitMesh> lit;
   std::vector<InsideOfPhoto> insides;
   if (photo) {

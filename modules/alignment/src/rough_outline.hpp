@@ -17,9 +17,9 @@ struct PhotoInside {
   const std::vector<Eigen::Vector3f>& colors;  // of the mesh's vertices, or empty
 };
 
-/// Poses that stay as they are where the outline is smooth. Where it is rough, each is settled with weights
-/// that fit the noise, and then by the photo's inside as well, if that is given and makes both more likely.
-/// Sorted anew, by agreements whose inliers allow for the noise.
+/// Where the outline is smooth the best pose is fitted to its pixels. Where it is rough, each is settled with
+/// weights that fit the noise, and then by the photo's inside as well, if that is given and makes both more
+/// likely. Sorted anew, by agreements whose inliers allow for the noise.
 struct SettledPoses {
   std::vector<RefinedPose> poses;
   OutlineNoise noise;   // about the best pose

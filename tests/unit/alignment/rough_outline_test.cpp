@@ -83,24 +83,27 @@ TEST(RoughOutline, ASmoothOneIsLeftToItself) {
 // Residuals along a straight rim that are a sine of a period that the samples do not divide.
 TEST(OutlineNoise, MeasuresSpreadAndHowFarItIsShared) {
   constexpr double period = 41.3;
-  std::vector<RimSample> rim;
-  std::vector<RimResidual> residuals;
-  for (std::size_t i = 0; i < 600; ++i) {
-    RimSample sample;
-    sample.at << static_cast<double>(i), 30;
-    sample.outward << 0, 1;
-    rim.push_back(sample);
-    RimResidual residual;
-    residual.sample = i;
-    residual.direction << 0, 1;
-    residual.distance_px = 2 * std::sin(sample.at.x() * 2 * std::numbers::pi / period);
-    residual.weight = 1;
-    residuals.push_back(residual);
+  // At whole pixels, and so far apart that some distances do not occur.
+  for (const double spacing : {1.0, 2.5}) {
+    std::vector<RimSample> rim;
+    std::vector<RimResidual> residuals;
+    for (std::size_t i = 0; i < 600; ++i) {
+      RimSample sample;
+      sample.at << spacing * static_cast<double>(i), 30;
+      sample.outward << 0, 1;
+      rim.push_back(sample);
+      RimResidual residual;
+      residual.sample = i;
+      residual.direction << 0, 1;
+      residual.distance_px = 2 * std::sin(sample.at.x() * 2 * std::numbers::pi / period);
+      residual.weight = 1;
+      residuals.push_back(residual);
+    }
+    const OutlineNoise noise = outline_noise(rim, residuals);
+    EXPECT_NEAR(noise.sigma_px, 1.4826 * std::numbers::sqrt2, 0.05);  // of the median of a sine
+    // A cosine's integral up to its first zero, on both sides: 2 * period / (2 pi).
+    EXPECT_NEAR(noise.correlation_px, period / std::numbers::pi, 2) << spacing;
   }
-  const OutlineNoise noise = outline_noise(rim, residuals);
-  EXPECT_NEAR(noise.sigma_px, 1.4826 * std::numbers::sqrt2, 0.05);  // of the median of a sine
-  // A cosine's integral up to its first zero, on both sides: 2 * period / (2 pi).
-  EXPECT_NEAR(noise.correlation_px, period / std::numbers::pi, 2);
 }
 
 TEST(OutlineMisfit, TellsOneGapFromMisfitsAllAlong) {
