@@ -1,6 +1,6 @@
 // Hole filling on real meshes: what became of every loop, and, for holes that are cut out of a complete mesh,
 // how far the patches are from what was cut, beside planar ones. Usage: filling_quality [save=FOLDER]
-// [option=value ...], options as in the `fill` section.
+// [seed=NUMBER] [option=value ...], options as in the `fill` section.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
@@ -29,18 +29,35 @@ namespace {
 struct Settings {
   meshing::FillOptions options;
   std::filesystem::path save;  // empty: nothing
+  std::uint64_t seed = 7;      // of the places where holes are cut
 };
 
 Settings settings_of(test::ProgramArguments& arguments) {
   Settings settings;
   settings.options.simplify_triangles = 0;
   settings.save = arguments.text("save").value_or("");
+  settings.seed = std::stoull(arguments.text("seed").value_or("7"));
   arguments.read(settings.options);
   arguments.finish();
   return settings;
 }
 
 using test::cpu_seconds;
+
+// Vertices of kept faces at places where there was none before: 0 is promised.
+std::size_t moved_vertices(const TriangleMesh& before, const TriangleMesh& after) {
+  const auto less = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::vector<Eigen::Vector3d> places = before.vertices;
+  std::sort(places.begin(), places.end(), less);
+  std::vector<std::uint8_t> moved(after.vertices.size(), 0);
+  for (std::size_t i = 0; i < after.faces.size(); ++i)
+    for (const std::uint32_t v : after.faces[i])
+      if (after.filled[i] == 0 && !std::binary_search(places.begin(), places.end(), after.vertices[v], less))
+        moved[v] = 1;
+  return static_cast<std::size_t>(std::count(moved.begin(), moved.end(), 1));
+}
 
 void every_loop(const std::string& name, const Settings& settings) {
   if (!test::have_data("meshes/" + name)) {
@@ -67,11 +84,11 @@ void every_loop(const std::string& name, const Settings& settings) {
       "open "
       "after; {:.3f} CPU s\n  self-intersecting pairs {} before, {} after, {} with an added face; manifold "
       "{}, "
-      "genus {}\n",
+      "genus {}; {} vertices moved\n",
       name, before.boundary_loops, before.borders, result.holes.size(), filled, result.holes.size() - filled,
       silent, after.boundary_loops, seconds, crossings_before, after.self_intersections,
       result.self_intersections, after.manifold() ? "yes" : "NO",
-      after.genus ? std::to_string(*after.genus) : "none");
+      after.genus ? std::to_string(*after.genus) : "none", moved_vertices(mesh, result.mesh));
   for (const meshing::Hole& hole : result.holes)
     fmt::print("  {:5} edges, length {:8.1f}, area {:9.1f}, flatness {:6.2f} spacings: {:5} ({})\n",
                hole.boundary_edges, hole.length / spacing, hole.area / (spacing * spacing),
@@ -145,7 +162,31 @@ struct Score {
   double sum = 0;
   double planar_sum = 0;
   std::size_t crossings = 0;
+  std::size_t moved = 0;
+
+  void add(const Score& other) {
+    holes += other.holes;
+    filled += other.filled;
+    better += other.better;
+    squares += other.squares;
+    planar_squares += other.planar_squares;
+    sum += other.sum;
+    planar_sum += other.planar_sum;
+    crossings += other.crossings;
+    moved += other.moved;
+  }
 };
+
+void print_score(const std::string& name, const std::string& radius, const Score& score) {
+  const auto n = static_cast<double>(std::max<std::size_t>(score.filled, 1));
+  fmt::print(
+      "{:16} {:2} holes of radius {:>4}: {:2} filled, mean error {:.3f} (planar {:.3f}, ratio {:.2f}), RMS "
+      "{:.3f} ({:.3f}, {:.2f}), under half of planar {}, self-intersections {}, vertices moved {}\n",
+      name, score.holes, radius, score.filled, score.sum / n, score.planar_sum / n,
+      score.sum / score.planar_sum, std::sqrt(score.squares / n), std::sqrt(score.planar_squares / n),
+      std::sqrt(score.squares / score.planar_squares), score.better, score.crossings, score.moved);
+  std::fflush(stdout);
+}
 
 void measure(const Cut& cut, double spacing, const meshing::FillOptions& options, Score& score) {
   const std::size_t before = meshing::self_intersecting_pairs(cut.open).size();
@@ -156,6 +197,7 @@ void measure(const Cut& cut, double spacing, const meshing::FillOptions& options
   if (!all) return;
   score.filled += 1;
   score.crossings += meshing::self_intersecting_pairs(result.mesh).size() - before;
+  score.moved += moved_vertices(cut.open, result.mesh);
   const metrics::SurfacePoints points{2000, 1};
   const auto made = metrics::two_way_distance(added_faces(result.mesh), cut.piece, points);
   const auto flat = metrics::two_way_distance(planar_patch(cut.open), cut.piece, points);
@@ -169,7 +211,7 @@ void measure(const Cut& cut, double spacing, const meshing::FillOptions& options
 }
 
 void transplanted_holes(const std::string& name, const Settings& settings, std::size_t number,
-                        double radius_spacings, std::uint64_t seed) {
+                        double radius_spacings, std::uint64_t seed, Score& pooled) {
   if (!test::have_data("meshes/" + name)) return;
   const TriangleMesh mesh = io::read_mesh(test::data("meshes/" + name));
   const double spacing = median_edge_length(mesh);
@@ -193,13 +235,8 @@ void transplanted_holes(const std::string& name, const Settings& settings, std::
     if (mesh_topology(cut.open).boundary_loops != 1 || mesh_topology(cut.open).components != 1) continue;
     measure(cut, spacing, settings.options, score);
   }
-  const auto n = static_cast<double>(std::max<std::size_t>(score.filled, 1));
-  fmt::print(
-      "{:16} {:2} holes of radius {:4.1f}: {:2} filled, mean error {:.3f} (planar {:.3f}, ratio {:.2f}), RMS "
-      "{:.3f} ({:.3f}, {:.2f}), under half of planar {}, self-intersections {}\n",
-      name, score.holes, radius_spacings, score.filled, score.sum / n, score.planar_sum / n,
-      score.sum / score.planar_sum, std::sqrt(score.squares / n), std::sqrt(score.planar_squares / n),
-      std::sqrt(score.squares / score.planar_squares), score.better, score.crossings);
+  print_score(name, fmt::format("{:.1f}", radius_spacings), score);
+  pooled.add(score);
 }
 
 // A band of a sphere between a loop of 4,000 edges and one of 2,000: both are filled.
@@ -255,8 +292,10 @@ int main(int count, char** texts) {
     fmt::print("Holes cut out of complete meshes; errors in spacings\n");
     drape::Settings cutting = settings;
     cutting.options.keep_outer_border = false;
+    drape::Score pooled;
     for (const double radius : {4.0, 8.0, 16.0})
       for (const char* name : {"bun_zipper.ply", "Laurana50k.ply", "rocker-arm.obj"})
-        drape::transplanted_holes(name, cutting, 6, radius, 7);
+        drape::transplanted_holes(name, cutting, 6, radius, settings.seed, pooled);
+    drape::print_score("all", "any", pooled);
   });
 }

@@ -23,6 +23,7 @@ struct DepthMap {
   std::vector<Eigen::Vector4f> pixels;
   std::vector<std::uint32_t> samples;  // per pixel the scan's nearest point, or no_sample; may be empty
   std::size_t scan = 0;                // which one this is of
+  double noise = 0;                    // of the sheet's samples across the surface, a length
 
   [[nodiscard]] std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +

@@ -125,8 +125,8 @@ Plane robust_plane(Surroundings& s, float noise) {
 
 }  // namespace
 
-std::vector<RangeSample> denoised(const std::vector<RangeSample>& samples, const SampleNeighbors& neighbors,
-                                  const Sight& sight, double longest_edge_spacings) {
+Denoised denoised(const std::vector<RangeSample>& samples, const SampleNeighbors& neighbors,
+                  const Sight& sight, double longest_edge_spacings) {
   const auto longest = static_cast<float>(longest_edge_spacings);
   constexpr float least_noise_spacings = 0.01F;
   const float noise = std::max(least_noise_spacings, noise_of(samples, neighbors, sight, longest));
@@ -140,7 +140,7 @@ std::vector<RangeSample> denoised(const std::vector<RangeSample>& samples, const
     result[i].slope_x = plane.slope_x;
     result[i].slope_y = plane.slope_y;
   });
-  return averaged_over_surfaces(std::move(result), neighbors, sight, noise);
+  return {averaged_over_surfaces(std::move(result), neighbors, sight, noise), noise};
 }
 
 }  // namespace drape::meshing

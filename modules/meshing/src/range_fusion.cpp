@@ -9,6 +9,7 @@
 #include "drape/geometry/kd_tree.hpp"
 #include "drape/geometry/mesh_packing.hpp"
 #include "field_cleaning.hpp"
+#include "field_smoothing.hpp"
 #include "fused_attributes.hpp"
 #include "fused_field.hpp"
 #include "fusion_blocks.hpp"
@@ -39,6 +40,7 @@ SeenScan seen_scan(const RangeScan& scan, const Rigid3& world_from_scan, const F
     seen.samples += static_cast<std::size_t>(std::count_if(
         sheet.samples.begin(), sheet.samples.end(), [](const RangeSample& s) { return s.weight > 0; }));
     seen.maps.push_back(depth_map(sheet, has_attributes(scan.cloud), sizes.limits.longest_edge_spacings));
+    seen.maps.back().noise = sheet.noise_spacings * spacing;
   }
   return seen;
 }
@@ -95,25 +97,64 @@ std::vector<std::size_t> group_ends(const FusionBlocks& blocks) {
   return ends;
 }
 
+double median_noise(std::span<const DepthMap> maps) {
+  std::vector<double> noises;
+  for (const DepthMap& map : maps) noises.push_back(map.noise);
+  if (noises.empty()) return 0;
+  const auto middle = noises.begin() + static_cast<std::ptrdiff_t>(noises.size() / 2);
+  std::nth_element(noises.begin(), middle, noises.end());
+  return *middle;
+}
+
+// Gathers the field group by group, and smooths it.
+class FieldSource {
+ public:
+  FieldSource(const FusionBlocks& blocks, std::span<const DepthMap> maps, int rounds)
+      : blocks_(blocks), maps_(maps), rounds_(rounds), ends_(group_ends(blocks)) {}
+
+  [[nodiscard]] std::size_t groups() const { return ends_.size(); }
+  /// The end of a group, or of all.
+  [[nodiscard]] std::size_t end_of(std::size_t group) const {
+    return ends_[std::min(group, ends_.size() - 1)];
+  }
+  /// Appends the groups up to this one.
+  void extend(FusedField& field, std::size_t group) {
+    if (rounds_ == 0) return fuse_blocks(field, blocks_, maps_, end_of(group));
+    for (; next_ <= group && next_ < groups(); ++next_) {
+      // What touches a group lies in the ones before and after it.
+      fuse_blocks(raw_, blocks_, maps_, end_of(next_ + 1));
+      smooth_blocks(field, raw_, blocks_, rounds_, end_of(next_));
+      if (next_ > 0) raw_.forget_before(end_of(next_ - 1));
+    }
+  }
+
+ private:
+  const FusionBlocks& blocks_;
+  std::span<const DepthMap> maps_;
+  int rounds_;
+  std::vector<std::size_t> ends_;
+  FusedField raw_;
+  std::size_t next_ = 0;
+};
+
 // Of the whole mesh only three groups of blocks are there as voxels at a time: the one that becomes faces,
 // the one above that its uppermost cubes touch, and the one that those touch.
-std::vector<SurfacePart> open_surface(const FusionBlocks& blocks, std::span<const DepthMap> maps,
+std::vector<SurfacePart> open_surface(const FusionBlocks& blocks, std::span<const DepthMap> maps, int rounds,
                                       std::span<const RangeScan> scans, const Progress& progress) {
-  const std::vector<std::size_t> ends = group_ends(blocks);
   const CommonAttributes common = common_attributes(maps, scans);
-  const auto end_of = [&](std::size_t group) { return ends[std::min(group, ends.size() - 1)]; };
+  FieldSource source(blocks, maps, rounds);
   FusedField field;
   MarchingCubes cubes(blocks);
   std::vector<SurfacePart> parts;
-  fuse_blocks(field, blocks, maps, end_of(1));
-  cubes.number(field, end_of(0));
-  for (std::size_t group = 0; group < ends.size(); ++group) {
-    progress.update(static_cast<double>(group) / static_cast<double>(ends.size()), "fusing the scans");
-    fuse_blocks(field, blocks, maps, end_of(group + 2));
-    cubes.number(field, end_of(group + 1));
-    parts.push_back(cubes.part(field, end_of(group)));
+  source.extend(field, 1);
+  cubes.number(field, source.end_of(0));
+  for (std::size_t group = 0; group < source.groups(); ++group) {
+    progress.update(static_cast<double>(group) / static_cast<double>(source.groups()), "fusing the scans");
+    source.extend(field, group + 2);
+    cubes.number(field, source.end_of(group + 1));
+    parts.push_back(cubes.part(field, source.end_of(group)));
     fuse_attributes(parts.back(), common, blocks, maps, scans);
-    field.forget_before(end_of(group));
+    field.forget_before(source.end_of(group));
   }
   return parts;
 }
@@ -160,15 +201,17 @@ Fused fused_mesh(std::span<const RangeScan> scans, std::span<const Rigid3> world
   const FusionBlocks blocks = blocks_round(seen.maps, sizes.voxel, FusedField::truncation_voxels);
   Fused fused;
   fused.samples = seen.samples;
+  const int rounds = smoothing_rounds(median_noise(seen.maps) / sizes.voxel);
   std::vector<SurfacePart> parts =
-      open_surface(blocks, seen.maps, scans, progress.part(0.4, sizes.closed ? 0.6 : 0.9));
+      open_surface(blocks, seen.maps, rounds, scans, progress.part(0.4, sizes.closed ? 0.6 : 0.9));
   if (!sizes.closed) seen.maps = {};
   fused.mesh = cleaned(joined(std::move(parts), blocks), sizes.min_component_percent, fused);
   if (!sizes.closed || fused.mesh.empty()) return fused;
 
   const TriangleMesh open = std::move(fused.mesh);
   FusedField field;
-  fuse_blocks(field, blocks, seen.maps, blocks.size());
+  FieldSource source(blocks, seen.maps, rounds);
+  source.extend(field, source.groups());
   const CarvedSpace carved = carved_space(blocks, field, seen.maps, open, progress.part(0.7, 0.95));
   parts = whole_surface(carved.blocks, carved.field);
   fuse_attributes(parts.front(), common_attributes(seen.maps, scans), carved.blocks, seen.maps, scans);

@@ -33,8 +33,8 @@ struct Fused {
 /// The surface that the scans agree on, open where none saw it (or closed there, with those faces `filled`)
 /// (Curless and Levoy 1996, "A volumetric method for building complex models from range images"): each scan
 /// is denoised on its own lattice, triangulated and drawn as a depth map; sparse blocks of voxels near the
-/// surfaces gather their signed distances; marching cubes. With colours, intensities and confidences where
-/// all scans have them. Scans that cannot be fused are left out.
+/// surfaces gather their signed distances, which are smoothed where the noise was large; marching cubes. With
+/// colours, intensities and confidences where all scans have them. Scans that cannot be fused are left out.
 [[nodiscard]] Fused fused_mesh(std::span<const RangeScan> scans, std::span<const Rigid3> world_from_scan,
                                const FusionSizes& sizes, const Progress& progress);
 

@@ -163,17 +163,20 @@ std::vector<Face> projected_faces(const RangeSheet& sheet, const SurfaceTest& te
 
 RangeSheet range_sheet(const RangeScan& scan, const Rigid3& world_from_scan, const Sight& sight,
                        const SheetLimits& limits) {
-  RangeSheet sheet{sight, {}, {}};
+  RangeSheet sheet{sight, {}, {}, 0};
   sheet.samples = samples_of(scan, world_from_scan, sheet.sight);
   const SurfaceTest test(sheet, limits);
+  const auto denoise = [&](const SampleNeighbors& neighbors) {
+    Denoised result = denoised(sheet.samples, neighbors, sheet.sight, limits.longest_edge_spacings);
+    sheet.samples = std::move(result.samples);
+    sheet.noise_spacings = static_cast<double>(result.noise);
+  };
   if (scan.grid) {
-    sheet.samples =
-        denoised(sheet.samples, SampleNeighbors(*scan.grid), sheet.sight, limits.longest_edge_spacings);
+    denoise(SampleNeighbors(*scan.grid));
     sheet.faces = lattice_faces(*scan.grid, sheet, test);
   } else {
     sheet.faces = projected_faces(sheet, test);
-    sheet.samples = denoised(sheet.samples, SampleNeighbors(sheet.faces, sheet.samples.size()), sheet.sight,
-                             limits.longest_edge_spacings);
+    denoise(SampleNeighbors(sheet.faces, sheet.samples.size()));
   }
   weigh(sheet);
   return sheet;

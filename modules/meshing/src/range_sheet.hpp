@@ -29,6 +29,7 @@ struct RangeSheet {
   Sight sight;                       // with its corner set: all columns and rows are at least 3
   std::vector<RangeSample> samples;  // as the scan's points, denoised
   std::vector<Face> faces;
+  double noise_spacings = 0;  // deviation across the surface, before the samples were denoised
 };
 
 /// Where a surface ends: at longer edges, and at triangles seen more obliquely.

@@ -13,6 +13,7 @@
 #include "drape/geometry/mesh_topology.hpp"
 #include "drape/meshing/mesh_quality.hpp"
 #include "drape/meshing/mesh_scans.hpp"
+#include "field_smoothing.hpp"
 #include "marching_cubes.hpp"
 #include "shapes.hpp"
 #include "support.hpp"
@@ -105,6 +106,67 @@ TEST(MarchingCubes, SlabBySlabMakesTheSameMesh) {
   const TriangleMesh slabs = joined(std::move(parts), blocks);
   EXPECT_EQ(slabs.vertices, whole.vertices);
   EXPECT_EQ(slabs.faces, whole.faces);
+}
+
+// 3 x 3 x 3 blocks from voxel (8, 8, 8) on, of distances in voxels.
+template <class Distance>
+std::pair<FusionBlocks, FusedField> field_of(Distance distance) {
+  auto [blocks, field] = field_of_noise();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (int i = 0; i < VoxelLattice::block_voxels; ++i) {
+      const Eigen::Vector3i at = blocks.corner(b) + Eigen::Vector3i(i % 8, i / 8 % 8, i / 64);
+      const double steps =
+          std::clamp(distance(at.cast<double>().eval()) / FusedField::step_voxels, -32766.0, 32766.0);
+      field.distances[b * VoxelLattice::block_voxels + static_cast<std::size_t>(i)] =
+          static_cast<std::int16_t>(2 * std::lround(steps / 2));
+    }
+  return {std::move(blocks), std::move(field)};
+}
+
+FusedField smoothed_field(const FusionBlocks& blocks, const FusedField& field, int rounds) {
+  FusedField smooth;
+  smooth_blocks(smooth, field, blocks, rounds, blocks.size());
+  return smooth;
+}
+
+TEST(FieldSmoothing, TakesNoiseOffAPlaneAcrossBlocks) {
+  Rng random(1);
+  const auto plane = [](const Vector3d& p) { return p.z() - 0.3 * p.x() - 14.8; };
+  const auto [blocks, field] = field_of([&](const Vector3d& p) { return plane(p) + 0.2 * random.normal(); });
+  const auto error = [&, &b = blocks](const FusedField& f) {
+    double sum = 0;
+    const TriangleMesh mesh = surface_at_once(b, f);
+    for (const Vector3d& p : mesh.vertices) sum += std::pow(plane(p), 2);
+    return std::sqrt(sum / static_cast<double>(mesh.vertices.size()));
+  };
+  const double before = error(field);
+  EXPECT_LT(error(smoothed_field(blocks, field, 1)), 0.5 * before);
+  EXPECT_LT(error(smoothed_field(blocks, field, 2)), 0.35 * before);
+}
+
+TEST(FieldSmoothing, LeavesPlanesGuessesAndTheUnknownAndKeepsCreases) {
+  auto [blocks, field] = field_of([](const Vector3d& p) { return std::max(p.z(), p.x()) - 19.5; });
+  field.distances[13 * 512 + 300] = FusedField::unknown;
+  field.distances[13 * 512 + 301] = 4001;  // a guess
+  const FusedField smooth = smoothed_field(blocks, field, 2);
+  for (std::size_t i = 0; i < field.distances.size(); ++i) {
+    const std::size_t voxel = i % VoxelLattice::block_voxels;
+    const Eigen::Vector3i at = blocks.corner(i / VoxelLattice::block_voxels) +
+                               Eigen::Vector3i(static_cast<int>(voxel % 8), static_cast<int>(voxel / 8 % 8),
+                                               static_cast<int>(voxel / 64));
+    const double moved = std::abs(smooth.distances[i] - field.distances[i]) * FusedField::step_voxels;
+    // A mean over 5 x 5 x 5 voxels rounds the crease by 0.8.
+    EXPECT_LE(moved, std::abs(at.x() - at.z()) > 2 ? 1e-3 : 0.4) << at.transpose();
+    if (FusedField::is_guess(field.distances[i]) || field.distances[i] == FusedField::unknown) {
+      EXPECT_EQ(smooth.distances[i], field.distances[i]);
+    }
+  }
+}
+
+TEST(FieldSmoothing, IsForNoise) {
+  EXPECT_EQ(smoothing_rounds(0.1), 0);
+  EXPECT_EQ(smoothing_rounds(0.6), 1);
+  EXPECT_EQ(smoothing_rounds(1.2), 2);
 }
 
 TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
