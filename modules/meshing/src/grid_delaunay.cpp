@@ -10,11 +10,13 @@
 namespace drape::meshing {
 namespace {
 
-std::vector<Face> lattice_triangles(const RangeGrid& grid) {
+std::vector<Face> lattice_triangles(const RangeScan& scan) {
+  const RangeGrid& grid = *scan.grid;
   std::vector<PlanarSite> sites;
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
-      if (const std::int32_t index = grid.at(row, column); index != RangeGrid::missing)
+      if (const std::int32_t index = grid.at(row, column);
+          index != RangeGrid::missing && scan.cloud.positions[static_cast<std::size_t>(index)].allFinite())
         sites.push_back(
             {static_cast<double>(column), static_cast<double>(row), static_cast<std::uint32_t>(index)});
   return delaunay_faces(sites);
@@ -51,7 +53,7 @@ TriangleMesh grid_mesh(const RangeScan& scan, double longest_edge, double max_in
   mesh.colors = scan.cloud.colors;
   mesh.intensities = scan.cloud.intensities;
   mesh.confidences = scan.cloud.confidences;
-  mesh.faces = lattice_triangles(*scan.grid);
+  mesh.faces = lattice_triangles(scan);
 
   const double least_cosine = std::cos(max_incidence_deg * std::numbers::pi / 180);
   std::vector<std::uint8_t> keep(mesh.faces.size());

@@ -23,7 +23,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double pitch = 1.5;
+constexpr double pitch = 2;
 constexpr double radius = 12;
 constexpr std::array methods{Method::fusion,      Method::poisson, Method::advancing_front,
                              Method::scale_space, Method::grid,    Method::automatic};
@@ -52,7 +52,7 @@ struct Input {
 Input seen_sphere(double sign = 1) {
   Input input;
   test::LatticeSetup setup;
-  setup.rows = setup.columns = 24;
+  setup.rows = setup.columns = 18;
   setup.pitch = pitch;
   for (const Vector3d& from : {Vector3d(1, .1, .2), Vector3d(-1, .1, .2), Vector3d(.2, 1, .1),
                                Vector3d(.2, -1, .1), Vector3d(.1, .2, 1), Vector3d(.1, .2, -1)}) {
@@ -210,10 +210,12 @@ TEST_P(BadScans, AreMeshedRightOrRefusedClearly) {
     const MeshResult result = made();
     EXPECT_EQ(problem_of(result.mesh), "");
     EXPECT_TRUE(mesh_quality(result.mesh).manifold());
-    // Sheets of a grid are not joined: each point is seen by one to three scans.
+    // Sheets of a grid are not joined: each point is seen by one to three scans. Poisson's surface goes on
+    // beyond a rim until it is trimmed.
     const bool sheets = result.method == Method::grid;
+    const bool beyond_rim = result.method == Method::poisson && GetParam().area < sphere_area;
     EXPECT_GT(surface_area(result.mesh), 0.85 * GetParam().area);
-    EXPECT_LT(surface_area(result.mesh), (sheets ? 3.5 : 1.15) * GetParam().area);
+    EXPECT_LT(surface_area(result.mesh), (sheets ? 3.5 : (beyond_rim ? 2.1 : 1.15)) * GetParam().area);
     if (GetParam().area >= sphere_area && !sheets) {
       EXPECT_GT(signed_volume(result.mesh), 0);
     }
