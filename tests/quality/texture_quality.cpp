@@ -1,7 +1,7 @@
 // How simulated objects of a known paint look when draped with photos of it: from cameras that are a little
 // off, from cameras that saw nothing, past things in front, across seams.
-// Usage: texture_quality [save=FOLDER] [objects=teapot,statue] [option=value ...], options as in the
-// `texture` section.
+// Usage: texture_quality [save=FOLDER] [objects=teapot,statue] [seed=0] [option=value ...], options as in the
+// `texture` section; without `objects`: all; other seeds look from other sides.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
@@ -22,6 +22,7 @@
 #include "drape/texturing/texture_mesh.hpp"
 #include "painted_object.hpp"
 #include "program_arguments.hpp"
+#include "triangle_raster.hpp"
 
 namespace drape {
 namespace {
@@ -59,31 +60,56 @@ std::uint8_t byte(float light) {
   return static_cast<std::uint8_t>(std::lround(255 * stored));
 }
 
-// The paint itself, without light: 3 x 3 rays a pixel, 0.5 % of noise.
-Photo photographed(const Object& object, const Camera& camera, const Eigen::Vector3f& background,
-                   double exposure, std::uint64_t seed, double noise = 0.005) {
-  Photo photo{Image8(width, height, 3), Image8(width, height, 1, stencil::background), camera};
+// What a camera sees of an object: linear light, the mean of 3 x 3 rays a pixel, without noise.
+struct Scene {
+  Camera camera;
+  Image<float> light;     // three channels, of the object alone
+  Image<float> coverage;  // share of the rays that hit it
+  Image8 stencil;
+};
+
+// The paint itself, without light.
+Scene seen_by(const Object& object, const Camera& camera) {
+  Scene scene{camera, Image<float>(width, height, 3, 0), Image<float>(width, height, 1, 0),
+              Image8(width, height, 1, stencil::background)};
   parallel_for(height, 8, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-      for (int x = 0; x < width; ++x) {
-        Rng rng(item_seed(seed, static_cast<std::uint64_t>(y * width + x)));
-        Eigen::Vector3f light = Eigen::Vector3f::Zero();
+      for (int x = 0; x < width; ++x)
         for (int s = 0; s < 9; ++s) {
           const Eigen::Vector2d pixel(x + (s % 3 + 0.5) / 3, y + (s / 3 + 0.5) / 3);
           const Eigen::Vector3d eye = camera.center();
           const Eigen::Vector3d direction = camera.unproject(pixel, 1) - eye;
           const auto hit = object.caster.first_hit(eye, direction);
-          if (hit && s == 4) photo.stencil.at(x, y) = stencil::object;
+          if (!hit) continue;
+          if (s == 4) scene.stencil.at(x, y) = stencil::object;
           const Eigen::Vector3f color =
-              hit ? simulation::object_color(object.spec, eye + hit->distance * direction) : background;
-          light += color.unaryExpr(&linear);
+              simulation::object_color(object.spec, eye + hit->distance * direction);
+          for (int c = 0; c < 3; ++c) scene.light.at(x, y, c) += linear(color[c]) / 9;
+          scene.coverage.at(x, y) += 1 / 9.F;
         }
-        for (int c = 0; c < 3; ++c)
-          photo.rgb.at(x, y, c) =
-              byte(static_cast<float>(exposure) * light[c] / 9 + static_cast<float>(noise * rng.normal()));
-      }
   });
+  return scene;
+}
+
+// With 0.5 % of noise, of full scale in linear light.
+Photo photographed(const Scene& scene, const Eigen::Vector3f& background, double exposure, std::uint64_t seed,
+                   double noise = 0.005) {
+  Photo photo{Image8(width, height, 3), scene.stencil, scene.camera};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      Rng rng(item_seed(seed, static_cast<std::uint64_t>(y * width + x)));
+      for (int c = 0; c < 3; ++c) {
+        const float light = scene.light.at(x, y, c) + (1 - scene.coverage.at(x, y)) * background[c];
+        photo.rgb.at(x, y, c) =
+            byte(static_cast<float>(exposure) * light + static_cast<float>(noise * rng.normal()));
+      }
+    }
   return photo;
+}
+
+// Other seeds look from other sides.
+double turn_deg(std::uint64_t seed) {
+  return seed == 0 ? 0 : 360 * Rng(item_seed(501, seed)).uniform();
 }
 
 Camera camera_at(const Object& object, double azimuth_deg, double elevation_deg) {
@@ -188,7 +214,8 @@ Image8 inner(const Image8& stencil, int px) {
 }
 
 // One photo, cameras slightly off: what the outline and the background look like.
-void measure_recovered(const Object& object, const TextureOptions& options, const std::string& folder) {
+void measure_recovered(const Object& object, const TextureOptions& options, std::uint64_t seed,
+                       const std::string& folder) {
   Mean psnr;
   Mean background;
   Mean warp;
@@ -198,10 +225,11 @@ void measure_recovered(const Object& object, const TextureOptions& options, cons
   Mean pose;
   const std::array<std::array<double, 2>, 3> sides = {{{-70, 20}, {35, 40}, {160, 5}}};
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Camera camera = camera_at(object, sides[i][0], sides[i][1]);
-    const Photo black = photographed(object, camera, Eigen::Vector3f::Zero(), 1, i);
-    const Photo white = photographed(object, camera, Eigen::Vector3f::Ones(), 1, i);
-    const Camera off = slightly_off(object, camera, item_seed(7, i));
+    const Camera camera = camera_at(object, sides[i][0] + turn_deg(seed), sides[i][1]);
+    const Scene scene = seen_by(object, camera);
+    const Photo black = photographed(scene, Eigen::Vector3f::Zero(), 1, i);
+    const Photo white = photographed(scene, Eigen::Vector3f::Ones(), 1, i);
+    const Camera off = slightly_off(object, camera, item_seed(7 + seed, i));
     const auto draped = [&](const Photo& photo, const Camera& by) {
       return texturing::texture_mesh(object.mesh, object.mesh, std::vector<TextureView>{view_of(photo, by)},
                                      options);
@@ -230,13 +258,26 @@ void measure_recovered(const Object& object, const TextureOptions& options, cons
       warp.mean());
 }
 
-std::vector<Photo> four_photos(const Object& object, bool exposures) {
-  std::vector<Photo> photos;
+// All round, and one more from between the first two.
+struct Views {
+  std::vector<Scene> four;
+  Scene held_out;
+};
+
+Views views_of(const Object& object, std::uint64_t seed) {
+  Views views;
   for (int i = 0; i < 4; ++i)
-    photos.push_back(photographed(object, camera_at(object, 15 + 90 * i, i % 2 == 0 ? 20 : 40),
-                                  Eigen::Vector3f::Zero(),
-                                  exposures ? std::array{1.0, 0.7, 0.9, 0.6}[static_cast<std::size_t>(i)] : 1,
-                                  static_cast<std::uint64_t>(i)));
+    views.four.push_back(
+        seen_by(object, camera_at(object, 15 + 90 * i + turn_deg(seed), i % 2 == 0 ? 20 : 40)));
+  views.held_out = seen_by(object, camera_at(object, 60 + turn_deg(seed), 30));
+  return views;
+}
+
+std::vector<Photo> four_photos(const Views& views, bool exposures) {
+  std::vector<Photo> photos;
+  for (std::size_t i = 0; i < 4; ++i)
+    photos.push_back(photographed(views.four[i], Eigen::Vector3f::Zero(),
+                                  exposures ? std::array{1.0, 0.7, 0.9, 0.6}[i] : 1, i));
   return photos;
 }
 
@@ -246,16 +287,53 @@ TextureResult draped(const Object& object, const std::vector<Photo>& photos, con
   return texturing::texture_mesh(object.mesh, object.mesh, views, options);
 }
 
+// The model with the paint itself in its texels, averaged over each: what no baking can beat at this density.
+TexturedMesh truly_painted(const Object& object, TexturedMesh model) {
+  constexpr int n = 3;
+  std::vector<Image8> done;
+  for (const Material& m : model.materials) done.emplace_back(m.image.width(), m.image.height(), 1, 0);
+  for (const double margin : {0.0, 1.5})
+    for (std::size_t f = 0; f < model.mesh.faces.size(); ++f) {
+      const std::uint32_t material = model.face_materials[f];
+      Image8& image = model.materials[material].image;
+      if (image.empty()) continue;
+      std::array<Eigen::Vector2d, 3> t;
+      std::array<Eigen::Vector3d, 3> x;
+      for (std::size_t k = 0; k < 3; ++k) {
+        t[k] = model.corner_uvs[f][k].cast<double>().cwiseProduct(
+            Eigen::Vector2d(image.width(), image.height()));
+        x[k] = model.mesh.vertices[model.mesh.faces[f][k]];
+      }
+      Eigen::Matrix2d across;
+      across << t[1] - t[0], t[2] - t[0];
+      const Eigen::Matrix2d inverse = across.inverse();
+      texturing::for_texels(
+          t, margin, {0, 0, image.width(), image.height()}, [&](int px, int py, const Eigen::Vector3d&) {
+            if (done[material].at(px, py) != 0) return;
+            done[material].at(px, py) = 1;
+            Eigen::Vector3f light = Eigen::Vector3f::Zero();
+            for (int s = 0; s < n * n; ++s) {
+              const Eigen::Vector2d at(px + (s % n + 0.5) / n, py + (s / n + 0.5) / n);
+              const Eigen::Vector2d w = inverse * (at - t[0]);
+              const Eigen::Vector3d point = x[0] + w[0] * (x[1] - x[0]) + w[1] * (x[2] - x[0]);
+              light += simulation::object_color(object.spec, point).unaryExpr(&linear);
+            }
+            for (int c = 0; c < 3; ++c) image.at(px, py, c) = byte(light[c] / (n * n));
+          });
+    }
+  return model;
+}
+
 // Four photos, seen from between them; by their true cameras or by such as are a little off.
-void measure_held_out(const Object& object, const TextureOptions& options, bool off,
-                      const std::string& folder) {
-  std::vector<Photo> photos = four_photos(object, false);
+void measure_held_out(const Object& object, const Views& views, const TextureOptions& options, bool off,
+                      std::uint64_t seed, const std::string& folder) {
+  std::vector<Photo> photos = four_photos(views, false);
   for (std::size_t i = 0; off && i < photos.size(); ++i)
-    photos[i].camera = slightly_off(object, photos[i].camera, item_seed(11, i));
+    photos[i].camera = slightly_off(object, photos[i].camera, item_seed(11 + seed, i));
   const TextureResult result = draped(object, photos, options);
-  const Camera camera = camera_at(object, 60, 30);
-  const Photo truth = photographed(object, camera, Eigen::Vector3f::Zero(), 1, 99);
-  const Photo clean = photographed(object, camera, Eigen::Vector3f::Zero(), 1, 99, 0);
+  const Camera& camera = views.held_out.camera;
+  const Photo truth = photographed(views.held_out, Eigen::Vector3f::Zero(), 1, 99);
+  const Photo clean = photographed(views.held_out, Eigen::Vector3f::Zero(), 1, 99, 0);
   const Image8 again = rendered(result.model, camera);
   const Image8 finely = rendered(result.model, camera, 3);
   Image8 mask = painted_mask(result.model, camera);
@@ -271,7 +349,8 @@ void measure_held_out(const Object& object, const TextureOptions& options, bool 
       "{:8} held-out view of four photos{}: {:.1f} dB, SSIM {:.3f} (without the noise of that view {:.1f} "
       "dB, "
       "{:.3f}; the noise alone {:.1f} dB, {:.3f}; drawn like the photos, with 3 x 3 samples a pixel, {:.1f} "
-      "dB, {:.3f}) on the {:.1f} % that photos saw; unseen of the surface "
+      "dB, {:.3f}, and without the noise {:.1f} dB, {:.3f}) on the {:.1f} % that photos saw; unseen of the "
+      "surface "
       "{:.1f} "
       "%  {} pages, {:.0f} % used\n",
       object.name, off ? ", cameras off by 0.4 deg, 1 %" : "",
@@ -280,9 +359,18 @@ void measure_held_out(const Object& object, const TextureOptions& options, bool 
       metrics::psnr_db(clean.rgb, truth.rgb, mask).value_or(0),
       metrics::ssim(clean.rgb, truth.rgb, mask).value_or(0),
       metrics::psnr_db(finely, truth.rgb, mask).value_or(0),
-      metrics::ssim(finely, truth.rgb, mask).value_or(0), 100 * seen / all, result.unseen_percent,
+      metrics::ssim(finely, truth.rgb, mask).value_or(0),
+      metrics::psnr_db(finely, clean.rgb, mask).value_or(0),
+      metrics::ssim(finely, clean.rgb, mask).value_or(0), 100 * seen / all, result.unseen_percent,
       result.atlas_coverage.size(), result.atlas_used_percent);
   if (off) return;
+  const Image8 ideal = rendered(truly_painted(object, result.model), camera, 3);
+  fmt::print(
+      "{:8}   the paint itself in the same texels: {:.1f} dB, SSIM {:.3f}, and without the noise {:.1f} dB, "
+      "{:.3f}\n",
+      object.name, metrics::psnr_db(ideal, truth.rgb, mask).value_or(0),
+      metrics::ssim(ideal, truth.rgb, mask).value_or(0), metrics::psnr_db(ideal, clean.rgb, mask).value_or(0),
+      metrics::ssim(ideal, clean.rgb, mask).value_or(0));
   save(folder, object.name + "_held_out", finely);
   Image8 difference = truth.rgb;
   for (std::size_t i = 0; i < difference.data().size(); ++i)
@@ -297,9 +385,9 @@ void measure_held_out(const Object& object, const TextureOptions& options, bool 
 }
 
 // Painted surface that a ray from the camera does not reach, in texels of the photo.
-void measure_occlusion(const Object& object, TextureOptions options) {
+void measure_occlusion(const Object& object, const Views& views, TextureOptions options) {
   options.mode = TextureMode::project;
-  const std::vector<Photo> photos = four_photos(object, false);
+  const std::vector<Photo> photos = four_photos(views, false);
   const TextureResult result = draped(object, photos, options);
   const double tolerance = 0.004 * bounding_box(object.mesh.vertices).diagonal().norm();
   double through = 0;
@@ -328,10 +416,10 @@ void measure_occlusion(const Object& object, TextureOptions options) {
 }
 
 // What photos of one exposure differ by at seams is their noise and resampling: no step.
-void measure_seams(const Object& object, TextureOptions options) {
+void measure_seams(const Object& object, const Views& views, TextureOptions options) {
   const double floor =
-      texturing::mean_step_across_seams(draped(object, four_photos(object, false), options).model);
-  const std::vector<Photo> photos = four_photos(object, true);
+      texturing::mean_step_across_seams(draped(object, four_photos(views, false), options).model);
+  const std::vector<Photo> photos = four_photos(views, true);
   const TextureResult levelled = draped(object, photos, options);
   options.mode = TextureMode::project;
   const TextureResult plain = draped(object, photos, options);
@@ -348,29 +436,29 @@ void measure_seams(const Object& object, TextureOptions options) {
 void run(test::ProgramArguments& arguments) {
   texturing::TextureOptions options;
   std::string folder;
-  std::string wanted = "teapot,statue,mug,apple,books";
+  std::string wanted;
+  std::uint64_t seed = 0;
   if (const auto given = arguments.text("save")) folder = *given;
   if (const auto given = arguments.text("objects")) wanted = *given;
+  if (const auto given = arguments.text("seed")) seed = std::stoull(*given);
   arguments.read(options);
   arguments.finish();
-  const std::vector<std::pair<std::string, simulation::ObjectKind>> kinds = {
-      {"teapot", simulation::ObjectKind::teapot},
-      {"statue", simulation::ObjectKind::statue},
-      {"mug", simulation::ObjectKind::mug},
-      {"apple", simulation::ObjectKind::apple},
-      {"books", simulation::ObjectKind::books}};
-  for (const auto& [name, kind] : kinds) {
-    if (wanted.find(name) == std::string::npos) continue;
+  for (const ObjectKind kind : {ObjectKind::teapot, ObjectKind::statue, ObjectKind::head,
+                                ObjectKind::machine_part, ObjectKind::aircraft, ObjectKind::vase,
+                                ObjectKind::chair, ObjectKind::mug, ObjectKind::apple, ObjectKind::books}) {
+    const std::string name = simulation::object_name(kind);
+    if (!wanted.empty() && wanted.find(name) == std::string::npos) continue;
     const simulation::ObjectSpec spec{kind, 1, 1.5};
     TriangleMesh mesh = simulation::make_object(spec);
     mesh.colors.clear();  // unseen surface is not to help
     const simulation::RayCaster caster(mesh);
     const Object object{name, spec, std::move(mesh), caster};
-    measure_recovered(object, options, folder);
-    measure_held_out(object, options, false, folder);
-    measure_held_out(object, options, true, folder);
-    measure_occlusion(object, options);
-    measure_seams(object, options);
+    const Views views = views_of(object, seed);
+    measure_held_out(object, views, options, false, seed, folder);
+    measure_held_out(object, views, options, true, seed, folder);
+    measure_occlusion(object, views, options);
+    measure_seams(object, views, options);
+    measure_recovered(object, options, seed, folder);
   }
 }
 

@@ -1,5 +1,7 @@
-// How a photo draped by its true camera looks again from that camera: PSNR, shares of the surface, time.
-// Usage: texture_real_quality [save=FOLDER] [option=value ...], options as in the `texture` section.
+// How photos draped by their true cameras look again: one photo from its own camera (PSNR, shares of the
+// surface, time), and many photos of the dino on its visual hull from the camera of one that was left out.
+// Usage: texture_real_quality [save=FOLDER] [left_out=4] [option=value ...], options as in the `texture`
+// section.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
@@ -12,9 +14,11 @@
 #include "drape/base/files.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/photo.hpp"
+#include "drape/metrics/image_error.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "drape/texturing/texture_mesh.hpp"
 #include "program_arguments.hpp"
+#include "real_photos.hpp"
 #include "support.hpp"
 
 namespace drape {
@@ -132,6 +136,115 @@ void measure(const nlohmann::json& item, const texturing::TextureOptions& option
   io::write_image(fmt::format("{}/{}_material.png", folder, id), result.model.materials[0].image);
 }
 
+double luma(const Image8& rgb, int x, int y) {
+  return 0.299 * rgb.at(x, y, 0) + 0.587 * rgb.at(x, y, 1) + 0.114 * rgb.at(x, y, 2);
+}
+
+// Mean over windows of 11 x 11 pixels that lie wholly in the mask of 1 - NCC (as Waechter et al. 2014 compare
+// renderings); windows without contrast of their own count where the other picture has some, as 1.
+double mean_one_minus_ncc(const Image8& a, const Image8& b, const Image8& mask) {
+  constexpr int reach = 5;
+  constexpr double least_deviation = 2;  // of 255: less is noise
+  double sum = 0;
+  double count = 0;
+  for (int y = reach; y + reach < a.height(); y += 2)
+    for (int x = reach; x + reach < a.width(); x += 2) {
+      double n = 0;
+      double sa = 0;
+      double sb = 0;
+      double saa = 0;
+      double sbb = 0;
+      double sab = 0;
+      for (int v = y - reach; v <= y + reach; ++v)
+        for (int u = x - reach; u <= x + reach; ++u) {
+          if (mask.at(u, v) != stencil::object) continue;
+          const double p = luma(a, u, v);
+          const double q = luma(b, u, v);
+          n += 1;
+          sa += p;
+          sb += q;
+          saa += p * p;
+          sbb += q * q;
+          sab += p * q;
+        }
+      if (n < (2 * reach + 1) * (2 * reach + 1)) continue;
+      const double va = saa / n - sa * sa / n / n;
+      const double vb = sbb / n - sb * sb / n / n;
+      const bool flat_a = va < least_deviation * least_deviation;
+      const bool flat_b = vb < least_deviation * least_deviation;
+      if (flat_a && flat_b) continue;
+      count += 1;
+      sum += flat_a || flat_b ? 1 : 1 - (sab / n - sa * sb / n / n) / std::sqrt(va * vb);
+    }
+  return sum / count;
+}
+
+// Pixels of the outline where the model shows surface that photos painted.
+Image8 painted_of(const TexturedMesh& model, const Camera& camera, const Image8& outline) {
+  rendering::TexturedStyle plain;
+  plain.samples_per_side = 1;
+  TexturedMesh bare = model;
+  for (Material& m : bare.materials) {
+    m.flat_color = m.image.empty() ? Eigen::Vector3f::Zero() : Eigen::Vector3f::Ones();
+    m.image = {};
+  }
+  bare.mesh.colors.clear();
+  plain.background = Eigen::Vector3f::Zero();
+  const Image8 shown = rendering::render_textured(bare, camera, plain);
+  Image8 painted = outline;
+  for (int y = 0; y < outline.height(); ++y)
+    for (int x = 0; x < outline.width(); ++x)
+      if (shown.at(x, y) != 255) painted.at(x, y) = stencil::background;
+  return painted;
+}
+
+double pixels_in(const Image8& mask) {
+  double count = 0;
+  for (const std::uint8_t v : mask.data()) count += v == stencil::object ? 1 : 0;
+  return count;
+}
+
+// A hull carved from every second photo, painted by the others but one, which is then drawn.
+void measure_dino(int left_out, const texturing::TextureOptions& options, const std::string& folder) {
+  const std::vector<lab::PosedPhoto> photos = lab::posed_photos("dino");
+  if (photos.empty()) return;
+  std::vector<lab::Outline> outlines;
+  std::vector<Image8> rgbs;
+  std::vector<lab::Outline> painters;
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    Image8 rgb = io::read_photo(photos[i].image).rgb;
+    lab::Outline outline{photos[i].truth, lab::dino_stencil(rgb)};
+    (i % 2 == 0 ? outlines : painters).push_back(std::move(outline));
+    if (i % 2 != 0) rgbs.push_back(std::move(rgb));
+  }
+  const TriangleMesh hull = lab::dino_hull(outlines);
+  fmt::print("dino: a hull of {} faces from {} photos, painted by {} others less one\n", hull.faces.size(),
+             outlines.size(), painters.size());
+  const std::size_t step = std::max<std::size_t>(1, painters.size() / static_cast<std::size_t>(left_out));
+  for (std::size_t out = step / 2; out < painters.size(); out += step) {
+    std::vector<texturing::TextureView> views;
+    for (std::size_t i = 0; i < painters.size(); ++i)
+      if (i != out)
+        views.push_back({rgbs[i], painters[i].camera, painters[i].stencil, fmt::format("{:03}_color", i)});
+    const auto start = std::chrono::steady_clock::now();
+    const auto result = texturing::texture_mesh(hull, hull, views, options);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Camera& camera = painters[out].camera;
+    rendering::TexturedStyle style;
+    style.samples_per_side = 3;
+    const Image8 again = rendering::render_textured(result.model, camera, style);
+    const Image8 seen = painted_of(result.model, camera, painters[out].stencil);
+    fmt::print(
+        "dino {:3} left out: 1 - NCC {:.3f}  PSNR {:.1f} dB  painted in the outline {:.1f} %  {:.2f} s\n",
+        2 * out + 1, mean_one_minus_ncc(again, rgbs[out], seen),
+        metrics::psnr_db(again, rgbs[out], seen).value_or(0),
+        100 * pixels_in(seen) / pixels_in(painters[out].stencil), seconds);
+    if (folder.empty()) continue;
+    io::write_image(fmt::format("{}/dino_{}_drawn.png", folder, 2 * out + 1), again);
+    io::write_image(fmt::format("{}/dino_{}_photo.png", folder, 2 * out + 1), rgbs[out]);
+  }
+}
+
 void run(test::ProgramArguments& arguments) {
   if (!test::have_data("photos/lmo")) {
     fmt::print("skipped: needs photos/lmo of DRAPE_TEST_DATA\n");
@@ -140,11 +253,13 @@ void run(test::ProgramArguments& arguments) {
   texturing::TextureOptions options;
   std::string folder;
   if (const auto given = arguments.text("save")) folder = *given;
+  const int left_out = arguments.integer("left_out").value_or(4);
   arguments.read(options);
   arguments.finish();
   const auto poses = nlohmann::json::parse(read_file(test::data("photos/poses.json")));
   for (const auto& item : poses["items"])
     if (item["image"].get<std::string>().find("lmo") != std::string::npos) measure(item, options, folder);
+  if (left_out > 0) measure_dino(left_out, options, folder);
 }
 
 }  // namespace

@@ -204,8 +204,10 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
   run.progress().update(0.5);
   const io::WorkspaceFrame target = output_frame(options, frame);
   write_models(options, in_output_frame(model, target), run);
-  if (run.has_artifact("align", "cameras.json")) {
-    const std::filesystem::path file = run.artifact("align", "cameras.json");
+  // Those that the texture was made with, where there is one: align's with small corrections.
+  const std::string stage = run.has_artifact("texture", "cameras.json") ? "texture" : "align";
+  if (run.has_artifact(stage, "cameras.json")) {
+    const std::filesystem::path file = run.artifact(stage, "cameras.json");
     write_file(run.output("cameras.json"), read_file(file));
     write_sidecars(options, cameras_in(target, io::read_cameras(file)), run);
   }
@@ -218,11 +220,12 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
 pipeline::Stage export_stage() {
   pipeline::Stage stage;
   stage.name = "export";
-  stage.version = 3;
+  stage.version = 4;
   stage.summary = "Writes the model in the formats that viewers open; they are copied to `output`.";
   stage.input_parts = {"up"};
-  stage.reads = {{"fill", "mesh.ply"},     {"fill", "mesh_simplified.ply"}, {"fill", "holes.json"},
-                 {"texture", "model.ply"}, {"texture", "textures/*.png"},   {"align", "cameras.json"}};
+  stage.reads = {{"fill", "mesh.ply"},       {"fill", "mesh_simplified.ply"}, {"fill", "holes.json"},
+                 {"texture", "model.ply"},   {"texture", "textures/*.png"},   {"align", "cameras.json"},
+                 {"texture", "cameras.json"}};
   stage.writes = {"model.glb", "model_web.glb", "model.obj",    "model.mtl",
                   "model.ply", "model_*.png",   "cameras.json", "model_colors.ply",
                   "model.stl", "colmap/*.txt",  "model.mlp",    "metashape.xml"};

@@ -55,6 +55,13 @@ void write_pictures(const texturing::TextureResult& result, pipeline::StageRun& 
                     result.atlas_coverage[i]);
 }
 
+// What rendering needs in order to lay the model over the photos as they were laid over it.
+void write_corrected_cameras(io::CamerasRecord record, const texturing::TextureResult& result,
+                             pipeline::StageRun& run) {
+  for (std::size_t i = 0; i < record.cameras.size(); ++i) record.cameras[i].camera = result.views[i].camera;
+  io::write_cameras(run.output("cameras.json"), record);
+}
+
 void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
   const TriangleMesh full = io::read_mesh(run.artifact("fill", "mesh.ply"));
   const TriangleMesh simplified = io::read_mesh(run.artifact("fill", "mesh_simplified.ply"));
@@ -68,6 +75,7 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
   const texturing::TextureResult result =
       texturing::texture_mesh(simplified, full, views, options, run.progress());
   write_pictures(result, run);
+  write_corrected_cameras(record, result, run);
   run.metric("seen_percent", result.seen_percent);
   run.metric("filled_percent", result.filled_percent);
   run.metric("unseen_percent", result.unseen_percent);
@@ -95,14 +103,14 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
 pipeline::Stage texture_stage() {
   pipeline::Stage stage;
   stage.name = "texture";
-  stage.version = 3;
+  stage.version = 4;
   stage.summary = "Drapes the photos over the mesh: hidden surfaces, borders, unseen parts.";
   stage.input_parts = {"photos"};
   stage.reads = {{"fill", "mesh.ply"},
                  {"fill", "mesh_simplified.ply"},
                  {"align", "cameras.json"},
                  {"align", "*/stencil.png"}};
-  stage.writes = {"model.ply", "textures/*.png"};
+  stage.writes = {"model.ply", "cameras.json", "textures/*.png"};
   stage.applies = [](const pipeline::Input& input) { return !input.photos.empty(); };
   stage.instantiate = pipeline::stage_body(run);
   return stage;

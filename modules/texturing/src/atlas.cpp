@@ -76,7 +76,8 @@ class PagePainter {
       : paint_(paint),
         faces_(std::move(faces)),
         side_(side),
-        pixels_(side, side),
+        color_(side, side, 3, 0),
+        done_(side, side, 1, 0),
         coverage_(side, side, 3, 0) {
     bands_.resize(static_cast<std::size_t>((side + band_rows - 1) / band_rows));
     for (std::size_t i = 0; i < faces_.size(); ++i) {
@@ -98,14 +99,8 @@ class PagePainter {
         paint_band(static_cast<int>(b), fringe_px);
       }
     });
-    pixels_ = pull_pushed(std::move(pixels_));
-    AtlasPage page{Image8(side_, side_, 3), std::move(coverage_)};
-    parallel_for(static_cast<std::size_t>(side_), band_rows, [&](std::size_t begin, std::size_t end) {
-      for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-        for (int x = 0; x < side_; ++x)
-          for (int c = 0; c < 3; ++c) page.color.at(x, y, c) = byte_from_linear(pixels_.at(x, y)[c]);
-    });
-    return page;
+    grow_colors(color_, done_);
+    return {std::move(color_), std::move(coverage_)};
   }
 
  private:
@@ -114,8 +109,10 @@ class PagePainter {
     for (const std::uint32_t i : bands_[static_cast<std::size_t>(band)]) {
       const PageFace& f = faces_[i];
       for_texels(f.texels, margin, bounds, [&](int x, int y, const Eigen::Vector3d& weights) {
-        if (pixels_.at(x, y).w() > 0) return;
-        pixels_.at(x, y) << color_of(f, weights), 1;
+        if (done_.at(x, y) != 0) return;
+        done_.at(x, y) = 1;
+        const Eigen::Vector3f color = color_of(f, weights);
+        for (int c = 0; c < 3; ++c) color_.at(x, y, c) = byte_from_linear(color[c]);
         if (margin == 0) mark(f, weights, x, y);
       });
     }
@@ -169,7 +166,8 @@ class PagePainter {
   const AtlasPaint& paint_;
   std::vector<PageFace> faces_;
   int side_;
-  WeightedPixels pixels_;
+  Image8 color_;
+  Image8 done_;  // where it is painted
   Image8 coverage_;
   std::vector<std::vector<std::uint32_t>> bands_;
 };

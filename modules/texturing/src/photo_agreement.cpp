@@ -56,19 +56,12 @@ std::vector<SurfacePoint> spread_points(const TriangleMesh& mesh) {
   return points;
 }
 
-// Log of the luminance at one blur, with its slopes.
+// Log of the luminance at one blur.
 class Picture {
  public:
   Picture() = default;
-  Picture(const cv::Mat& log_light, double blur_px) {
-    cv::GaussianBlur(log_light, values_, {}, blur_px);
-    cv::Mat across;
-    cv::Mat down;
-    cv::Sobel(values_, across, CV_32F, 1, 0, 1, 0.5);
-    cv::Sobel(values_, down, CV_32F, 0, 1, 1, 0.5);
-    cv::merge(std::vector<cv::Mat>{values_, across, down}, values_);
-  }
-  /// Value and slopes.
+  Picture(const cv::Mat& log_light, double blur_px) { cv::GaussianBlur(log_light, values_, {}, blur_px); }
+  /// Value and slopes: differences of neighbours, as few places ask for them.
   [[nodiscard]] Eigen::Vector3f at(const Eigen::Vector2d& pixel) const {
     const double px = std::clamp(pixel.x() - 0.5, 0.0, values_.cols - 1.001);
     const double py = std::clamp(pixel.y() - 0.5, 0.0, values_.rows - 1.001);
@@ -76,10 +69,12 @@ class Picture {
     const int y = static_cast<int>(py);
     const auto fx = static_cast<float>(px - x);
     const auto fy = static_cast<float>(py - y);
+    const auto light = [&](int column, int row) {
+      return values_.at<float>(std::clamp(row, 0, values_.rows - 1), std::clamp(column, 0, values_.cols - 1));
+    };
     const auto value = [&](int column, int row) {
-      const auto& v =
-          values_.at<cv::Vec3f>(std::min(row, values_.rows - 1), std::min(column, values_.cols - 1));
-      return Eigen::Vector3f(v[0], v[1], v[2]);
+      return Eigen::Vector3f(light(column, row), (light(column + 1, row) - light(column - 1, row)) / 2,
+                             (light(column, row + 1) - light(column, row - 1)) / 2);
     };
     return (1 - fy) * ((1 - fx) * value(x, y) + fx * value(x + 1, y)) +
            fy * ((1 - fx) * value(x, y + 1) + fx * value(x + 1, y + 1));

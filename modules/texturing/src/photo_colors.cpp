@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "area_prefilter.hpp"
 #include "linear_light.hpp"
 #include "usable_pixels.hpp"
 
@@ -28,7 +29,9 @@ PixelBox usable_box(const Image8& trusted) {
 }  // namespace
 
 PhotoColors::PhotoColors(const Image8& rgb, const Image8& trusted)
-    : box_(usable_box(trusted)), grown_(grown_photo(rgb, trusted, box_)) {}
+    : box_(usable_box(trusted)), grown_(grown_photo(rgb, trusted, box_)) {
+  prefilter_areas(grown_);
+}
 
 Eigen::Vector3f PhotoColors::at(const Eigen::Vector2d& pixel) const {
   const double px = std::clamp(pixel.x() - box_.left - 0.5, 0.0, grown_.width() - 1.0);

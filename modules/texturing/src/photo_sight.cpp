@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -14,18 +15,20 @@ namespace {
 
 constexpr int largest_depth_map_px = 8192;
 constexpr double steepest_slope = 10;  // tangent of the incidence up to which the tolerance grows
+constexpr double clear_slope = 1;      // beyond the tolerance of this one a ray decides
 
 }  // namespace
 
 PhotoSight::PhotoSight(const Camera& camera, OutlineWarp warp, ImageF depth, Image8 trusted, double tolerance,
-                       double max_incidence_deg)
+                       double max_incidence_deg, const RayCaster& full)
     : camera_(camera),
       warp_(std::move(warp)),
       camera_from_pixel_(camera.K.inverse()),
       depth_(std::move(depth)),
       trusted_(std::move(trusted)),
       tolerance_(tolerance),
-      least_cosine_(std::cos(max_incidence_deg * std::numbers::pi / 180)) {}
+      least_cosine_(std::cos(max_incidence_deg * std::numbers::pi / 180)),
+      full_(&full) {}
 
 bool PhotoSight::holds(const Eigen::Vector2d& pixel, double margin_px) const {
   return pixel.x() >= -margin_px && pixel.y() >= -margin_px && pixel.x() <= camera_.width + margin_px &&
@@ -54,15 +57,29 @@ std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3
   const double pixel_size =
       (perspective ? seen.depth : 1.0) / pixels_per_unit * camera_.width / depth_.width();
   const double slope = std::min(steepest_slope, std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine);
-  if (hidden(seen, point, normal, face_normal, tolerance_ + pixel_size * (0.5 + slope))) return trust::none;
+  const InFront front = in_front(seen, point, normal, face_normal,
+                                 tolerance_ + pixel_size * (0.5 + std::min(clear_slope, slope)),
+                                 tolerance_ + pixel_size * (0.5 + slope));
+  if (front == InFront::something) return trust::none;
+  if (front == InFront::perhaps && ray_blocked(point, pixel_size + tolerance_ * (1 + slope)))
+    return trust::none;
   return level;
+}
+
+bool PhotoSight::ray_blocked(const Eigen::Vector3d& point, double tolerance) const {
+  const Eigen::Vector3d towards = camera_.towards_camera(point);
+  double way = std::numeric_limits<double>::infinity();
+  if (camera_.projection == Camera::Projection::perspective)
+    way = (camera_.center() - point).norm() - tolerance;
+  return way > 0 && full_->blocked(point + tolerance * towards, towards, way);
 }
 
 // Whether any of the pixels round it shows something in front of both planes through the point: the face's
 // own and the smoothed one (the face's leans too far where a scan is noisy, the other where it is coarse).
-bool PhotoSight::hidden(const Camera::Projected& seen, const Eigen::Vector3d& point,
-                        const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
-                        double tolerance) const {
+// By the larger tolerance surely, by the smaller one perhaps.
+PhotoSight::InFront PhotoSight::in_front(const Camera::Projected& seen, const Eigen::Vector3d& point,
+                                         const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
+                                         double least_tolerance, double tolerance) const {
   const double scale_x = static_cast<double>(camera_.width) / depth_.width();
   const double scale_y = static_cast<double>(camera_.height) / depth_.height();
   const int left = static_cast<int>(std::floor(seen.pixel.x() / scale_x - 0.5));
@@ -82,20 +99,23 @@ bool PhotoSight::hidden(const Camera::Projected& seen, const Eigen::Vector3d& po
     const Eigen::Vector3d by_ray = perspective ? n : Eigen::Vector3d(n.x(), n.y(), 0);
     return Plane{-(ray_of.transpose() * by_ray), -n.dot(x_in_camera), -n.z()};
   };
+  InFront found = InFront::nothing;
   const std::array<Plane, 2> planes = {plane_of(normal), plane_of(face_normal)};
   for (int y = std::max(0, top - 1); y <= std::min(top + 2, depth_.height() - 1); ++y)
     for (int x = std::max(0, left - 1); x <= std::min(left + 2, depth_.width() - 1); ++x) {
-      const double depth = depth_.at(x, y) + tolerance;
-      if (!(depth < seen.depth + 2 * tolerance)) continue;  // behind, or nothing there
+      const double depth = depth_.at(x, y);
+      if (!(depth < seen.depth + tolerance)) continue;  // behind, or nothing there
       const Eigen::Vector3d pixel(x + 0.5, y + 0.5, 1);
-      const auto before = [&](const Plane& p) {
+      const auto before = [&](const Plane& p, double by) {
         const double lean = p.lean.dot(pixel);
-        return perspective ? lean > 0 && depth * lean < p.offset
-                           : p.slope > 0 && depth * p.slope + lean < p.offset;
+        return perspective ? lean > 0 && (depth + by) * lean < p.offset
+                           : p.slope > 0 && (depth + by) * p.slope + lean < p.offset;
       };
-      if (before(planes[0]) && before(planes[1])) return true;
+      if (!before(planes[0], least_tolerance) || !before(planes[1], least_tolerance)) continue;
+      if (before(planes[0], tolerance) && before(planes[1], tolerance)) return InFront::something;
+      found = InFront::perhaps;
     }
-  return false;
+  return found;
 }
 
 Camera depth_camera(const Camera& camera) {

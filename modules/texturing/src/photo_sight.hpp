@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "drape/geometry/camera.hpp"
+#include "drape/geometry/ray_caster.hpp"
 #include "drape/geometry/triangle_mesh.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "outline_warp.hpp"
@@ -16,12 +17,16 @@ class PhotoSight {
  public:
   /// `depth`: what the centre of each pixel sees (front or back), along the optical axis; as large as the
   /// photo or smaller. A point counts as hidden where it lies more than `tolerance` behind (in the unit of
-  /// the mesh).
+  /// the mesh). `full`: what may be in front, for where the depth picture is too coarse to tell; it is
+  /// referred to.
   PhotoSight(const Camera& camera, OutlineWarp warp, ImageF depth, Image8 trusted, double tolerance,
-             double max_incidence_deg);
+             double max_incidence_deg, const RayCaster& full);
 
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] const Image8& trusted() const { return trusted_; }
+
+  /// Gives the depth picture's memory back: sees() must not be asked any more.
+  void forget_depth() { depth_ = {}; }
 
   /// Where in the photo a point in front of the camera is looked up: its projection, warped.
   [[nodiscard]] Eigen::Vector2d pixel_of(const Eigen::Vector3d& point) const {
@@ -42,9 +47,11 @@ class PhotoSight {
   [[nodiscard]] bool holds(const Eigen::Vector2d& pixel, double margin_px = 0) const;
 
  private:
-  [[nodiscard]] bool hidden(const Camera::Projected& seen, const Eigen::Vector3d& point,
-                            const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
-                            double tolerance) const;
+  enum class InFront { nothing, perhaps, something };
+  [[nodiscard]] InFront in_front(const Camera::Projected& seen, const Eigen::Vector3d& point,
+                                 const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
+                                 double least_tolerance, double tolerance) const;
+  [[nodiscard]] bool ray_blocked(const Eigen::Vector3d& point, double tolerance) const;
 
   Camera camera_;
   OutlineWarp warp_;
@@ -53,6 +60,7 @@ class PhotoSight {
   Image8 trusted_;
   double tolerance_;
   double least_cosine_;
+  const RayCaster* full_;
 };
 
 /// The photo's camera, reduced if the photo is larger than a depth map can be.

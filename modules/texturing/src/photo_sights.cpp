@@ -109,7 +109,7 @@ void agree(const TriangleMesh& simplified, const TriangleMesh& full, std::span<c
 }
 
 PhotoSight sight_of(Posed& p, std::span<const TextureView> views, const TextureOptions& options,
-                    double& warp_px) {
+                    const RayCaster& full, double& warp_px) {
   const TextureView& view = views[p.view];
   SnappedOutline snapped;
   const bool close = p.pose.miss_px < negligible_miss_px && p.agreed_px == 0;
@@ -123,7 +123,8 @@ PhotoSight sight_of(Posed& p, std::span<const TextureView> views, const TextureO
           std::move(p.depth),
           usable_pixels(view.stencil, view.rgb.width(), view.rgb.height(), erode_px, options.fill_px),
           p.tolerance,
-          options.max_incidence_deg};
+          options.max_incidence_deg,
+          full};
 }
 
 }  // namespace
@@ -144,10 +145,12 @@ Sights sights_of(const TriangleMesh& simplified, const TriangleMesh& full, std::
   if (posed.size() > 1 && options.pose_max_px > 0)
     agree(simplified, full, views, options, posed, progress.part(0.6, 0.8));
   progress.update(0.8, "laying the outlines on each other");
+  out.full = std::make_unique<RayCaster>(full);
   std::vector<std::optional<PhotoSight>> sights(posed.size());
   out.warps_px.resize(posed.size());
   parallel_for(posed.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) sights[i] = sight_of(posed[i], views, options, out.warps_px[i]);
+    for (std::size_t i = begin; i < end; ++i)
+      sights[i] = sight_of(posed[i], views, options, *out.full, out.warps_px[i]);
   });
   for (std::size_t i = 0; i < posed.size(); ++i) {
     out.poses_px.push_back(posed[i].moved_px);

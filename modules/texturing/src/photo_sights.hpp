@@ -1,6 +1,7 @@
 // What every usable photo sees of a mesh, by cameras that fit it.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace drape::texturing {
 
 /// Of the usable views.
 struct Sights {
-  std::vector<std::size_t> views;  // their indices
+  std::unique_ptr<RayCaster> full;  // the sights refer to it
+  std::vector<std::size_t> views;   // their indices
   std::vector<PhotoSight> sights;
   std::vector<double> poses_px;  // as ViewUse's
   std::vector<double> warps_px;

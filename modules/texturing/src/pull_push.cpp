@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "drape/base/parallel.hpp"
+#include "linear_light.hpp"
 
 namespace drape::texturing {
 namespace {
@@ -64,6 +65,35 @@ WeightedPixels pull_pushed(WeightedPixels pixels) {
   if (mean.w() > 0) mean /= mean.w();
   for (std::size_t i = levels.size() - 1; i > 0; --i) push(levels[i], levels[i - 1]);
   return std::move(levels[0]);
+}
+
+void grow_colors(Image8& rgb, const Image8& known) {
+  const auto unknown = [](std::uint8_t v) { return v == 0; };
+  const auto begin = known.data().begin();
+  const auto end = known.data().end();
+  if (std::none_of(begin, end, unknown) || std::all_of(begin, end, unknown)) return;
+  // The finest level, of four floats a pixel, is never there as a whole.
+  WeightedPixels coarse((rgb.width() + 1) / 2, (rgb.height() + 1) / 2);
+  for_rows(coarse.height, [&](int row) {
+    for (int y = 2 * row; y < std::min(2 * row + 2, rgb.height()); ++y)
+      for (int x = 0; x < rgb.width(); ++x)
+        if (known.at(x, y) != 0)
+          coarse.at(x / 2, row) +=
+              Eigen::Vector4f(linear_from_byte(rgb.at(x, y, 0)), linear_from_byte(rgb.at(x, y, 1)),
+                              linear_from_byte(rgb.at(x, y, 2)), 1);
+    for (int x = 0; x < coarse.width; ++x) {
+      Eigen::Vector4f& p = coarse.at(x, row);
+      if (p.w() > 1) p /= p.w();
+    }
+  });
+  coarse = pull_pushed(std::move(coarse));
+  for_rows(rgb.height(), [&](int y) {
+    for (int x = 0; x < rgb.width(); ++x) {
+      if (known.at(x, y) != 0) continue;
+      const Eigen::Vector4f behind = between(coarse, x, y);
+      for (int c = 0; c < 3; ++c) rgb.at(x, y, c) = byte_from_linear(behind[c] / behind.w());
+    }
+  });
 }
 
 }  // namespace drape::texturing

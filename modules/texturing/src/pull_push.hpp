@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "drape/geometry/image.hpp"
+
 namespace drape::texturing {
 
 /// width x height pixels from the top; linear colour times its weight, and the weight (0..1).
@@ -27,5 +29,8 @@ struct WeightedPixels {
 /// coarser means (Gortler, Grzeszczuk, Szeliski, Cohen, "The Lumigraph", SIGGRAPH 1996, section 3.4). Without
 /// any weight, as it was.
 [[nodiscard]] WeightedPixels pull_pushed(WeightedPixels pixels);
+
+/// The same for a picture in bytes (RGB, sRGB-encoded, of the size of `known`), filled where `known` is 0.
+void grow_colors(Image8& rgb, const Image8& known);
 
 }  // namespace drape::texturing

@@ -93,6 +93,7 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
   p.sights = sights_of(simplified, full, views, options, progress.part(0, 0.4));
   const std::vector<PhotoSight>& sights = p.sights.sights;
   p.surface = split_at_sight(simplified, sights, options.split_px, progress.part(0.4, 0.9));
+  for (PhotoSight& sight : p.sights.sights) sight.forget_depth();
   p.atlas =
       options.mode == TextureMode::atlas || (options.mode == TextureMode::automatic && sights.size() > 1);
   progress.update(0.9, "reading the photos' colours");
@@ -301,6 +302,7 @@ TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& f
   TextureResult result;
   result.views.resize(views.size());
   result.coverage.resize(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) result.views[i].camera = views[i].camera;
   result.model.mesh = p.surface.mesh;
   result.model.corner_uvs.assign(p.chosen.size(),
                                  {Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()});
@@ -316,6 +318,7 @@ TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& f
   for (std::size_t s = 0; s < p.sights.views.size(); ++s) {
     result.views[p.sights.views[s]].warp_px = p.sights.warps_px[s];
     result.views[p.sights.views[s]].pose_px = p.sights.poses_px[s];
+    result.views[p.sights.views[s]].camera = p.sights.sights[s].camera();
   }
   for (std::size_t i = 0; i < views.size(); ++i)
     if (!views[i].usable)

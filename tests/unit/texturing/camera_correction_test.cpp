@@ -106,9 +106,13 @@ TEST(PoseMaxPx, IsReportedAndCanBeSwitchedOff) {
   const Shot shot = photographed(mesh, camera, waves(0.5));
   const TextureView view{shot.photo, turned(camera, {0.4, 0.3, 1}, 1.2, 1.01), shot.stencil, "photo"};
   TextureOptions options;
-  EXPECT_GT(texture_mesh(mesh, mesh, std::vector<TextureView>{view}, options).views[0].pose_px, 0.5);
+  const ViewUse corrected = texture_mesh(mesh, mesh, std::vector<TextureView>{view}, options).views[0];
+  EXPECT_GT(corrected.pose_px, 0.5);
+  EXPECT_LT(shift_px(mesh, camera, corrected.camera), 0.35);
   options.pose_max_px = 0;
-  EXPECT_EQ(texture_mesh(mesh, mesh, std::vector<TextureView>{view}, options).views[0].pose_px, 0);
+  const ViewUse kept = texture_mesh(mesh, mesh, std::vector<TextureView>{view}, options).views[0];
+  EXPECT_EQ(kept.pose_px, 0);
+  EXPECT_EQ(kept.camera.P(), view.camera.P());
 }
 
 TEST(SeamTexels, ShowTheSameOnBothSides) {

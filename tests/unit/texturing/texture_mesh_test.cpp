@@ -9,6 +9,7 @@
 
 #include "drape/base/parallel.hpp"
 #include "drape/geometry/mesh_topology.hpp"
+#include "drape/geometry/ray_caster.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "painted_object.hpp"
 #include "support.hpp"
@@ -182,6 +183,39 @@ TEST(TextureMesh, NothingIsPaintedThroughAnOccluder) {
   EXPECT_GT(unseen, shadow);
   EXPECT_LT(unseen, shadow + 2 * guard);
   EXPECT_GT(result.model.mesh.faces.size(), low_faces);
+}
+
+// Closer above it than the slope of the ground lets a depth picture tell: only rays can.
+TEST(TextureMesh, NothingIsPaintedThroughASheetJustAboveTheGround) {
+  const auto square = [](double side, double z) {
+    TriangleMesh mesh;
+    mesh.vertices = {{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}};
+    mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+  };
+  TriangleMesh mesh = square(1, 0);
+  for (const Eigen::Vector3d& x : square(0.5, 0.014).vertices) mesh.vertices.push_back(x);
+  mesh.faces.push_back({4, 5, 6});
+  mesh.faces.push_back({4, 6, 7});
+  const Camera camera =
+      look_at({0, -4, 0.5}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 160, 120, 40);
+  const Shot shot = photographed(mesh, camera, waves(0.5));
+  const TextureResult result = texture_mesh(mesh, mesh, std::vector<TextureView>{shot.view()}, {});
+  const RayCaster caster(mesh);
+  double ground = 0;
+  double through = 0;
+  for (std::size_t f = 0; f < result.model.mesh.faces.size(); ++f) {
+    if (!is_painted(result.model, f)) continue;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const std::uint32_t v : result.model.mesh.faces[f]) middle += result.model.mesh.vertices[v] / 3;
+    if (middle.z() > 0.001) continue;
+    const double area = scaled_face_normal(result.model.mesh, f).norm() / 2;
+    ground += area;
+    const Eigen::Vector3d towards = camera.towards_camera(middle);
+    if (caster.blocked(middle + 0.04 * towards, towards)) through += area;
+  }
+  EXPECT_GT(ground, 2.5);
+  EXPECT_LT(through, 0.001);  // of the 0.1 that it hides
 }
 
 TEST(TextureMesh, AHoleShowsTheInsideThatNoPhotoPaints) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "area_prefilter.hpp"
+#include "drape/base/random.hpp"
 #include "drape/geometry/mesh_topology.hpp"
 #include "edge_splits.hpp"
 #include "grown_photo.hpp"
@@ -16,6 +18,35 @@ TEST(LinearLight, GoesThereAndBackForEveryByte) {
   for (int i = 0; i < 256; ++i)
     EXPECT_EQ(byte_from_linear(linear_from_byte(static_cast<std::uint8_t>(i))), i);
   EXPECT_NEAR(linear_from_byte(188), 0.5029, 1e-3);  // half the light is stored as 188
+}
+
+TEST(AreaPrefilter, MeansOfItsNeighboursAreThePictureAgain) {
+  Image8 photo(23, 17, 3);
+  Rng rng(5);
+  for (std::uint8_t& value : photo.data()) value = static_cast<std::uint8_t>(120 + rng.below(30));
+  Image8 sharp = photo;
+  prefilter_areas(sharp);
+  const auto light = [&](int x, int y, int c) {  // mirrored about the first and the last pixel
+    const auto mirrored = [](int i, int size) { return i < 0 ? -i : i >= size ? 2 * size - 2 - i : i; };
+    return linear_from_byte(sharp.at(mirrored(x, 23), mirrored(y, 17), c));
+  };
+  const std::array<float, 3> share = {1 / 16.F, 7 / 8.F, 1 / 16.F};
+  int largest = 0;
+  for (int y = 0; y < 17; ++y)
+    for (int x = 0; x < 23; ++x)
+      for (int c = 0; c < 3; ++c) {
+        float sum = 0;
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx)
+            sum += share[static_cast<std::size_t>(dx + 1)] * share[static_cast<std::size_t>(dy + 1)] *
+                   light(x + dx, y + dy, c);
+        largest = std::max(largest, std::abs(int{byte_from_linear(sum)} - photo.at(x, y, c)));
+      }
+  EXPECT_LE(largest, 1);
+  EXPECT_NE(sharp, photo);
+  Image8 flat(1, 40, 3, 77);
+  prefilter_areas(flat);
+  EXPECT_EQ(flat, Image8(1, 40, 3, 77));
 }
 
 TEST(UsablePixels, KeepsTheDistanceFromTheBackground) {

@@ -96,6 +96,7 @@ struct ViewUse {
   double painted_percent = 0;  // of the model's area
   double pose_px = 0;          // how far the correction of its camera shifted the outline or the surface
   double warp_px = 0;          // the most that its outline was shifted by
+  Camera camera;               // that it was draped with: the given one, corrected; without the warp
   std::string reason;          // why nothing is painted from it; empty if something is
 };
 

@@ -1,4 +1,4 @@
-#include "drape/simulation/ray_caster.hpp"
+#include "drape/geometry/ray_caster.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "drape/geometry/bounding_box.hpp"
 
-namespace drape::simulation {
+namespace drape {
 namespace {
 
 using Eigen::Vector3d;
@@ -220,4 +220,4 @@ bool RayCaster::blocked(const Vector3d& origin, const Vector3d& direction, doubl
   return traverse(Ray(origin, direction), max_distance, true).has_value();
 }
 
-}  // namespace drape::simulation
+}  // namespace drape

@@ -1,4 +1,4 @@
-#include "drape/simulation/ray_caster.hpp"
+#include "drape/geometry/ray_caster.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "drape/base/random.hpp"
 #include "support.hpp"
 
-namespace drape::simulation {
+namespace drape {
 namespace {
 
 using Eigen::Vector3d;
@@ -98,4 +98,4 @@ TEST(RayCaster, FacesWithoutAreaAndManyEqualOnesDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace drape::simulation
+}  // namespace drape
