@@ -1,7 +1,8 @@
 // How simulated objects of a known paint look when draped with photos of it: from cameras that are a little
 // off, from cameras that saw nothing, past things in front, across seams.
-// Usage: texture_quality [save=FOLDER] [objects=teapot,statue] [seed=0] [option=value ...], options as in the
-// `texture` section; without `objects`: all; other seeds look from other sides.
+// Usage: texture_quality [save=FOLDER] [objects=teapot,statue] [rows=recovered,held_out,occlusion,seams]
+// [seed=0] [option=value ...], options as in the `texture` section; without `objects` or `rows`: all; other
+// seeds look from other sides.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
@@ -437,7 +438,9 @@ void run(test::ProgramArguments& arguments) {
   texturing::TextureOptions options;
   std::string folder;
   std::string wanted;
+  std::string rows;
   std::uint64_t seed = 0;
+  if (const auto given = arguments.text("rows")) rows = *given;
   if (const auto given = arguments.text("save")) folder = *given;
   if (const auto given = arguments.text("objects")) wanted = *given;
   if (const auto given = arguments.text("seed")) seed = std::stoull(*given);
@@ -453,12 +456,14 @@ void run(test::ProgramArguments& arguments) {
     mesh.colors.clear();  // unseen surface is not to help
     const simulation::RayCaster caster(mesh);
     const Object object{name, spec, std::move(mesh), caster};
+    const auto asked = [&](const char* row) { return rows.empty() || rows.find(row) != std::string::npos; };
+    if (asked("recovered")) measure_recovered(object, options, seed, folder);
+    if (!asked("held_out") && !asked("occlusion") && !asked("seams")) continue;
     const Views views = views_of(object, seed);
-    measure_held_out(object, views, options, false, seed, folder);
-    measure_held_out(object, views, options, true, seed, folder);
-    measure_occlusion(object, views, options);
-    measure_seams(object, views, options);
-    measure_recovered(object, options, seed, folder);
+    if (asked("held_out")) measure_held_out(object, views, options, false, seed, folder);
+    if (asked("held_out")) measure_held_out(object, views, options, true, seed, folder);
+    if (asked("occlusion")) measure_occlusion(object, views, options);
+    if (asked("seams")) measure_seams(object, views, options);
   }
 }
 

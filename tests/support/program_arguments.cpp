@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <ctime>
 
 #include "drape/base/error.hpp"
@@ -96,6 +97,7 @@ void ProgramArguments::finish() const {
 }
 
 int measuring_main(int count, char** texts, const std::function<void(ProgramArguments&)>& body) {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // what is measured is there, even if a time limit ends it
   try {
     ProgramArguments arguments(std::vector<std::string>(texts + 1, texts + count));
     body(arguments);
