@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ int main(int count, char** arguments) {
   const int height = large ? 3000 : 1024;
   // A torus hides parts of itself.
   const TriangleMesh mesh = large ? test::torus(1, 0.42, 500, 200) : test::torus(1, 0.42, 294, 118);
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // phases as they come: a time limit may end it
   std::vector<texturing::Shot> shots;
   for (int i = 0; i < 8; ++i) {
     const double azimuth = i * std::numbers::pi / 4;
@@ -35,11 +37,10 @@ int main(int count, char** arguments) {
   const auto start = std::chrono::steady_clock::now();
   std::string doing;
   auto since = start;
-  std::string phases;
   const auto tick = [&](std::string_view next) {
     const auto now = std::chrono::steady_clock::now();
     if (!doing.empty())
-      phases += fmt::format("  {:6.2f} s  {}\n", std::chrono::duration<double>(now - since).count(), doing);
+      fmt::print("  {:6.2f} s  {}\n", std::chrono::duration<double>(now - since).count(), doing);
     doing = next;
     since = now;
   };
@@ -64,6 +65,5 @@ int main(int count, char** arguments) {
       shots.size(), width, height, mesh.faces.size(), result.model.mesh.faces.size(),
       result.atlas_coverage.size(), seconds, cpu(after) - cpu(before), after.ru_maxrss / 1024,
       before.ru_maxrss / 1024);
-  fmt::print("{}", phases);
   return 0;
 }
