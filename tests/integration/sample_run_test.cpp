@@ -108,6 +108,17 @@ TEST(SampleRun, TeapotFromScansAndPhoto) {
   // A limit that no hole comes near changes no byte of the mesh: nothing after `fill` runs.
   EXPECT_EQ(stages_that_ran(teapot({"--set", "fill.min_component_percent=0.001"})),
             std::vector<std::string>{"fill"});
+  // The paint without the photo's light, for a viewer to light by the full mesh's shape.
+  EXPECT_EQ(stages_that_ran(teapot({"--set", "texture.delight=true"})),
+            (std::vector<std::string>{"texture", "export"}));
+  EXPECT_EQ(gltf_problems(teapot.output() / "model_albedo.glb"), std::vector<std::string>{});
+  const GltfPrimitive paint = read_gltf(teapot.output() / "model_albedo.glb").primitives.at(0);
+  EXPECT_FALSE(paint.unlit);
+  EXPECT_FALSE(paint.image.empty());
+  EXPECT_FALSE(paint.normal_map.empty());
+  EXPECT_NE(paint.image, read_gltf(teapot.output() / "model.glb").primitives.at(0).image);
+  EXPECT_EQ(io::read_mesh(teapot.output() / "model_albedo.ply").faces,
+            io::read_mesh(teapot.output() / "model.ply").faces);
   const Outcome status = run_drape({"status", teapot.workspace().string()});
   EXPECT_NE(status.out.find("teapot"), std::string::npos) << status.out;
 }

@@ -1,5 +1,6 @@
 #include "drape/metrics/image_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -47,6 +48,50 @@ double similarity(double mean_a, double mean_b, double variance_a, double varian
 }
 
 }  // namespace
+
+namespace {
+
+// Sums over one window's pixels, for the factor and the error that is left: the truth's squares less what the
+// best multiple of the other picture explains.
+struct WindowSums {
+  double truth = 0;
+  double made = 0;
+  double both = 0;
+  [[nodiscard]] double error() const { return made > 0 ? truth - both * both / made : truth; }
+};
+
+double linear_light(std::uint8_t stored) {
+  const double s = stored / 255.0;
+  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace
+
+std::optional<double> local_albedo_error(const Image8& made, const Image8& truth, const Image8& mask,
+                                         int window_px) {
+  require_alike(made, truth, mask);
+  if (window_px < 2) throw input_error("a window of {} pixels is too small to compare in", window_px);
+  double error = 0;
+  double all = 0;
+  for (int top = 0; top < made.height(); top += window_px / 2)
+    for (int left = 0; left < made.width(); left += window_px / 2)
+      for (int c = 0; c < made.channels(); ++c) {
+        WindowSums sums;
+        for (int y = top; y < std::min(made.height(), top + window_px); ++y)
+          for (int x = left; x < std::min(made.width(), left + window_px); ++x) {
+            if (!chosen(mask, x, y)) continue;
+            const double t = linear_light(truth.at(x, y, c));
+            const double m = linear_light(made.at(x, y, c));
+            sums.truth += t * t;
+            sums.made += m * m;
+            sums.both += t * m;
+          }
+        error += sums.error();
+        all += sums.truth;
+      }
+  if (!(all > 0)) return std::nullopt;
+  return error / all;
+}
 
 std::optional<double> psnr_db(const Image8& first, const Image8& second, const Image8& mask) {
   require_alike(first, second, mask);

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "drape/base/files.hpp"
 #include "drape/base/log.hpp"
@@ -51,16 +52,23 @@ void describe(Binder& b, ExportOptions& o) {
            {{"input", ExportUnits::input}, {"m", ExportUnits::metres}, {"mm", ExportUnits::millimetres}},
            "units of all files but the GLB; input: those of the scans, so that the model lies over them");
   b.flag("unlit", o.unlit, "GLB: viewers show the photo's own light and add none (KHR_materials_unlit)");
-  b.flag(
-      "normal_maps", o.normal_maps,
-      "GLB that viewers light (unlit: false): the shape of the full mesh as normal maps, so that the fewer "
-      "triangles look like it");
+  b.flag("normal_maps", o.normal_maps,
+         "GLB that viewers light (unlit: false, and model_albedo.glb): the shape of the full mesh as normal "
+         "maps, so that the fewer "
+         "triangles look like it");
   b.choice("glb_textures", o.glb_textures, {{"png", TextureFormat::png}, {"jpeg", TextureFormat::jpeg}},
            "GLB: PNG keeps every texel, JPEG is smaller");
   b.number(
       "web_triangles", o.web_triangles, {0, 10e6},
       "write model_web.glb, a light copy of about so many triangles and with JPEG textures of 2048 pixels "
       "at the most: the report shows it; 0: none, and the report has no view in three dimensions");
+}
+
+// The model without the photos' light, where `texture` took it out.
+std::optional<TexturedMesh> load_albedo(const pipeline::StageRun& run) {
+  if (!run.has_artifact("texture", "model_albedo.ply")) return std::nullopt;
+  const std::filesystem::path file = run.artifact("texture", "model_albedo.ply");
+  return io::read_textured_ply(file, file.parent_path() / "textures");
 }
 
 // Without photos the model is the mesh itself, in one flat material that leaves its own colours to it.
@@ -103,7 +111,7 @@ TexturedMesh with_full_shape(const ExportOptions& options, TexturedMesh model, i
                              const pipeline::StageRun& run) {
   const bool pictures = std::any_of(model.materials.begin(), model.materials.end(),
                                     [](const Material& m) { return !m.image.empty(); });
-  if (options.unlit || !options.normal_maps || !pictures) return model;
+  if (!options.normal_maps || !pictures) return model;
   return texturing::with_normal_maps(std::move(model), io::read_mesh(run.artifact("fill", "mesh.ply")),
                                      most_side_px);
 }
@@ -115,7 +123,7 @@ void write_web_copy(const ExportOptions& options, const TexturedMesh& model, con
   TexturedMesh light = meshing::simplified(model, static_cast<std::size_t>(options.web_triangles));
   for (Material& material : light.materials)
     if (!material.image.empty()) material.image = report::fitted(material.image, most_side_px, most_side_px);
-  light = with_full_shape(options, std::move(light), most_normal_side_px, run);
+  if (!options.unlit) light = with_full_shape(options, std::move(light), most_normal_side_px, run);
   io::write_glb(run.output("model_web.glb"), light, frame.transform, frame.origin,
                 {.unlit = options.unlit, .jpeg_textures = true, .jpeg_quality = 85});
 }
@@ -128,7 +136,13 @@ void write_gltf(const ExportOptions& options, const TexturedMesh& model, const i
   glb.jpeg_textures = options.glb_textures == TextureFormat::jpeg;
   constexpr int most_normal_side_px = 2048;
   if (options.glb)
-    io::write_glb(run.output("model.glb"), with_full_shape(options, model, most_normal_side_px, run),
+    io::write_glb(run.output("model.glb"),
+                  options.unlit ? model : with_full_shape(options, model, most_normal_side_px, run),
+                  gltf.transform, gltf.origin, glb);
+  // Paint is for a viewer to light.
+  glb.unlit = false;
+  if (const auto albedo = load_albedo(run); albedo && options.glb)
+    io::write_glb(run.output("model_albedo.glb"), with_full_shape(options, *albedo, most_normal_side_px, run),
                   gltf.transform, gltf.origin, glb);
   if (options.web_triangles > 0) write_web_copy(options, model, gltf, run);
 }
@@ -181,6 +195,19 @@ void write_sidecars(const ExportOptions& options, const std::vector<io::SidecarC
     io::write_metashape_xml(run.output("metashape.xml"), cameras);
 }
 
+// Beside the PLY, so that new light finds it.
+void write_albedo_ply(const ExportOptions& options, const io::WorkspaceFrame& frame,
+                      pipeline::StageRun& run) {
+  const auto albedo = load_albedo(run);
+  if (!albedo || !options.ply) return;
+  std::vector<std::string> pictures;
+  for (const Material& material : albedo->materials) {
+    pictures.push_back(material.image.empty() ? "" : "model_" + material.name + ".png");
+    if (!material.image.empty()) io::write_image(run.output(pictures.back()), material.image);
+  }
+  io::write_textured_ply(run.output("model_albedo.ply"), in_output_frame(*albedo, frame), pictures);
+}
+
 void write_models(const ExportOptions& options, const TexturedMesh& moved, pipeline::StageRun& run) {
   std::vector<std::string> pictures;
   for (const Material& material : moved.materials)
@@ -204,6 +231,7 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
   run.progress().update(0.5);
   const io::WorkspaceFrame target = output_frame(options, frame);
   write_models(options, in_output_frame(model, target), run);
+  write_albedo_ply(options, target, run);
   // Those that the texture was made with, where there is one: align's with small corrections.
   const std::string stage = run.has_artifact("texture", "cameras.json") ? "texture" : "align";
   if (run.has_artifact(stage, "cameras.json")) {
@@ -220,15 +248,15 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
 pipeline::Stage export_stage() {
   pipeline::Stage stage;
   stage.name = "export";
-  stage.version = 4;
+  stage.version = 5;
   stage.summary = "Writes the model in the formats that viewers open; they are copied to `output`.";
   stage.input_parts = {"up"};
-  stage.reads = {{"fill", "mesh.ply"},       {"fill", "mesh_simplified.ply"}, {"fill", "holes.json"},
-                 {"texture", "model.ply"},   {"texture", "textures/*.png"},   {"align", "cameras.json"},
-                 {"texture", "cameras.json"}};
-  stage.writes = {"model.glb", "model_web.glb", "model.obj",    "model.mtl",
-                  "model.ply", "model_*.png",   "cameras.json", "model_colors.ply",
-                  "model.stl", "colmap/*.txt",  "model.mlp",    "metashape.xml"};
+  stage.reads = {{"fill", "mesh.ply"},      {"fill", "mesh_simplified.ply"}, {"fill", "holes.json"},
+                 {"texture", "model.ply"},  {"texture", "model_albedo.ply"}, {"texture", "textures/*.png"},
+                 {"align", "cameras.json"}, {"texture", "cameras.json"}};
+  stage.writes = {"model.glb", "model_albedo.glb", "model_albedo.ply", "model_web.glb", "model.obj",
+                  "model.mtl", "model.ply",        "model_*.png",      "cameras.json",  "model_colors.ply",
+                  "model.stl", "colmap/*.txt",     "model.mlp",        "metashape.xml"};
   stage.applies = [](const pipeline::Input&) { return true; };
   stage.published = true;
   stage.instantiate = pipeline::stage_body(run);

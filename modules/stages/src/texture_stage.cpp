@@ -40,13 +40,18 @@ std::vector<LoadedView> load_views(const io::CamerasRecord& record, const pipeli
   return views;
 }
 
-void write_pictures(const texturing::TextureResult& result, pipeline::StageRun& run) {
+void write_model(const std::string& file, const TexturedMesh& model, pipeline::StageRun& run) {
   std::vector<std::string> names;
-  for (const Material& material : result.model.materials) {
+  for (const Material& material : model.materials) {
     names.push_back(material.image.empty() ? "" : material.name + ".png");
     if (!material.image.empty()) io::write_image(run.output("textures/" + names.back()), material.image);
   }
-  io::write_textured_ply(run.output("model.ply"), result.model, names);
+  io::write_textured_ply(run.output(file), model, names);
+}
+
+void write_pictures(const texturing::TextureResult& result, pipeline::StageRun& run) {
+  write_model("model.ply", result.model, run);
+  if (result.albedo) write_model("model_albedo.ply", *result.albedo, run);
   for (std::size_t i = 0; i < result.coverage.size(); ++i)
     if (!result.coverage[i].empty())
       io::write_image(run.output("textures/" + three_digits(i) + "_coverage.png"), result.coverage[i]);
@@ -82,6 +87,11 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
   run.metric("background_texels_percent", result.background_texels_percent);
   run.metric("overhang_percent", result.overhang_percent);
   run.metric("faces", static_cast<double>(result.model.mesh.faces.size()));
+  if (result.albedo) {
+    run.metric("lamps", static_cast<double>(result.lamps));
+    run.metric("log_color_spread", result.log_spread_before);
+    run.metric("log_albedo_spread", result.log_spread_after);
+  }
   if (!result.atlas_coverage.empty()) {
     run.metric("atlas_pages", static_cast<double>(result.atlas_coverage.size()));
     run.metric("atlas_used_percent", result.atlas_used_percent);
@@ -110,7 +120,7 @@ pipeline::Stage texture_stage() {
                  {"fill", "mesh_simplified.ply"},
                  {"align", "cameras.json"},
                  {"align", "*/stencil.png"}};
-  stage.writes = {"model.ply", "cameras.json", "textures/*.png"};
+  stage.writes = {"model.ply", "model_albedo.ply", "cameras.json", "textures/*.png"};
   stage.applies = [](const pipeline::Input& input) { return !input.photos.empty(); };
   stage.instantiate = pipeline::stage_body(run);
   return stage;

@@ -25,7 +25,7 @@ struct PhotoMaterial {
 };
 /// A copy of the photo cropped to what the triangles use and filters reach, with the object's colours grown
 /// over what is not fully trusted from up to `reach_px` away.
-[[nodiscard]] PhotoMaterial photo_material(const Image8& rgb, const PhotoSight& sight,
+[[nodiscard]] PhotoMaterial photo_material(const Image8& rgb, const Image8& trusted,
                                            const std::vector<PixelTriangle>& triangles, double reach_px);
 
 }  // namespace drape::texturing

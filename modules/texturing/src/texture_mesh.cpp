@@ -9,6 +9,7 @@
 
 #include "atlas.hpp"
 #include "coverage_picture.hpp"
+#include "delit_photos.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/parallel.hpp"
 #include "linear_light.hpp"
@@ -84,6 +85,8 @@ struct Painting {
   bool atlas = false;
   std::vector<VertexBlend> blends;  // of an atlas
   std::vector<VertexGains> gains;
+  std::vector<const Image8*> photos;   // of the sights
+  std::vector<const Image8*> trusted;  // how far their pixels are
 };
 
 Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
@@ -93,14 +96,19 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
   p.sights = sights_of(simplified, full, views, options, progress.part(0, 0.4));
   const std::vector<PhotoSight>& sights = p.sights.sights;
   p.surface = split_at_sight(simplified, sights, options.split_px, progress.part(0.4, 0.9));
-  for (PhotoSight& sight : p.sights.sights) sight.forget_depth();
+  // Taking the light out asks once more what photos see.
+  if (!options.delight)
+    for (PhotoSight& sight : p.sights.sights) sight.forget_depth();
   p.atlas =
       options.mode == TextureMode::atlas || (options.mode == TextureMode::automatic && sights.size() > 1);
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    p.photos.push_back(&views[p.sights.views[i]].rgb);
+    p.trusted.push_back(&sights[i].trusted());
+  }
   progress.update(0.9, "reading the photos' colours");
   p.colors.resize(sights.size());
   parallel_for(sights.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      p.colors[i] = PhotoColors(views[p.sights.views[i]].rgb, sights[i].trusted());
+    for (std::size_t i = begin; i < end; ++i) p.colors[i] = PhotoColors(*p.photos[i], *p.trusted[i]);
   });
   p.exposures.assign(sights.size(), Eigen::Vector3f::Zero());
   if (sights.size() > 1) {
@@ -174,7 +182,7 @@ void add_photo_materials(const Painting& p, const FaceLists& faces_of, std::span
     const std::size_t view = p.sights.views[s];
     const PhotoSight& sight = p.sights.sights[s];
     PhotoMaterial painted = photo_material(
-        views[view].rgb, sight, triangles_in_photo(model.mesh, faces_of[s], sight), options.fill_px);
+        *p.photos[s], *p.trusted[s], triangles_in_photo(model.mesh, faces_of[s], sight), options.fill_px);
     result.views[view].material = static_cast<int>(model.materials.size());
     for (std::size_t i = 0; i < faces_of[s].size(); ++i) {
       model.face_materials[faces_of[s][i]] = static_cast<std::uint32_t>(model.materials.size());
@@ -289,16 +297,9 @@ void add_unseen(const Painting& p, const TextureOptions& options, std::set<std::
   add_flat_material("unseen", rest, flat, names, model);
 }
 
-}  // namespace
-
-TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& full,
-                           std::span<const TextureView> views, const TextureOptions& options,
-                           const Progress& progress) {
-  check_mesh(simplified, "simplified");
-  check_mesh(full, "full");
-  for (const TextureView& view : views) check_view(view);
-
-  const Painting p = painting_of(simplified, full, views, options, progress.part(0, 0.7));
+// Everything that is painted, with the colours that the painting has.
+TextureResult painted(const Painting& p, std::span<const TextureView> views, const TextureOptions& options,
+                      const Progress& progress) {
   TextureResult result;
   result.views.resize(views.size());
   result.coverage.resize(views.size());
@@ -310,11 +311,49 @@ TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& f
   const FaceLists faces_of = count_shares(p, result);
   std::set<std::string> names;
   if (p.atlas)
-    add_atlas(p, options, names, progress.part(0.7, 0.95), result);
+    add_atlas(p, options, names, progress, result);
   else
     add_photo_materials(p, faces_of, views, options, names, result);
   progress.update(0.95, "counting what is covered");
   add_coverage(p, faces_of, views, result);
+  add_unseen(p, options, names, result);
+  return result;
+}
+
+// The same surface in the colours of its paint.
+void add_albedo(const TriangleMesh& full, std::span<const TextureView> views, const TextureOptions& options,
+                const Progress& progress, Painting& p, TextureResult& result) {
+  const std::vector<PhotoSight>& sights = p.sights.sights;
+  const Delighting delit = delit_photos(full, sights, p.photos, progress.part(0, 0.8));
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    p.photos[i] = &delit.photos[i].rgb;
+    p.trusted[i] = &delit.photos[i].trusted;
+    p.colors[i] = PhotoColors(*p.photos[i], *p.trusted[i]);
+    p.exposures[i].setZero();
+    result.lamps += delit.lights[i].lamps.size();
+  }
+  if (p.atlas && options.level_seams)
+    p.gains = levelling_gains(p.surface, p.chosen, p.blends, sights, p.colors, p.exposures);
+  result.albedo = painted(p, views, options, progress.part(0.8, 1)).model;
+  for (Material& material : result.albedo->materials)
+    if (const std::size_t at = material.name.rfind("_color"); at != std::string::npos)
+      material.name.replace(at, 6, "_albedo");
+  result.log_spread_before = delit.spread.before;
+  result.log_spread_after = delit.spread.after;
+}
+
+}  // namespace
+
+TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& full,
+                           std::span<const TextureView> views, const TextureOptions& options,
+                           const Progress& progress) {
+  check_mesh(simplified, "simplified");
+  check_mesh(full, "full");
+  for (const TextureView& view : views) check_view(view);
+
+  const double light_from = options.delight ? 0.5 : 1;
+  Painting p = painting_of(simplified, full, views, options, progress.part(0, 0.7 * light_from));
+  TextureResult result = painted(p, views, options, progress.part(0.7 * light_from, light_from));
   for (std::size_t s = 0; s < p.sights.views.size(); ++s) {
     result.views[p.sights.views[s]].warp_px = p.sights.warps_px[s];
     result.views[p.sights.views[s]].pose_px = p.sights.poses_px[s];
@@ -325,7 +364,8 @@ TextureResult texture_mesh(const TriangleMesh& simplified, const TriangleMesh& f
       result.views[i].reason = "not usable";
     else if (result.views[i].painted_percent == 0)
       result.views[i].reason = "sees nothing of the model that others do not see better";
-  add_unseen(p, options, names, result);
+  if (options.delight && !p.sights.views.empty())
+    add_albedo(full, views, options, progress.part(light_from, 1), p, result);
   progress.update(1);
   return result;
 }

@@ -145,5 +145,38 @@ TEST(ImageError, OfEmptyPicturesIsNothing) {
   EXPECT_FALSE(ssim(Image8(5, 5, 1), Image8(5, 5, 1), Image8(5, 5, 1)).has_value());
 }
 
+// Linear light 64 bytes apart by the factor given, in windows that each have one of their own.
+Image8 lit(const Image8& paint, double left, double right) {
+  Image8 picture = paint;
+  for (int y = 0; y < paint.height(); ++y)
+    for (int x = 0; x < paint.width(); ++x) {
+      const double light = x < paint.width() / 2 ? left : right;
+      // Powers, as sRGB's curve is none.
+      for (int c = 0; c < paint.channels(); ++c) {
+        const double stored = paint.at(x, y, c) / 255.0;
+        const double linear = light * std::pow((stored + 0.055) / 1.055, 2.4);
+        picture.at(x, y, c) =
+            static_cast<std::uint8_t>(std::lround(255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055)));
+      }
+    }
+  return picture;
+}
+
+TEST(LocalAlbedoError, ForgivesTheLightOfAWindowAndNotAnEdgeInIt) {
+  Image8 paint(40, 40, 3);
+  Rng rng(4);
+  for (std::uint8_t& value : paint.data()) value = static_cast<std::uint8_t>(100 + rng.below(120));
+  EXPECT_NEAR(local_albedo_error(paint, paint).value(), 0, 1e-12);
+  EXPECT_LT(local_albedo_error(lit(paint, 0.5, 0.5), paint).value(), 1e-4);
+  const double edge = local_albedo_error(lit(paint, 1, 0.25), paint).value();
+  EXPECT_GT(edge, 0.02);
+  // The windows that the edge lies in are a third of all.
+  EXPECT_LT(edge, 0.2);
+  EXPECT_NEAR(local_albedo_error(Image8(40, 40, 3, 0), paint).value(), 1, 1e-12);
+  EXPECT_FALSE(local_albedo_error(paint, paint, Image8(40, 40, 1, stencil::background)).has_value());
+  EXPECT_NE(test::error_message(ErrorCode::input, [&] { (void)local_albedo_error(paint, paint, {}, 1); }),
+            "");
+}
+
 }  // namespace
 }  // namespace drape::metrics

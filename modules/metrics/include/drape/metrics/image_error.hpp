@@ -20,4 +20,13 @@ namespace drape::metrics {
 /// above.
 [[nodiscard]] std::optional<double> ssim(const Image8& first, const Image8& second, const Image8& mask = {});
 
+/// Local mean squared error of an albedo (Grosse, Johnson, Adelson, Freeman, "Ground truth dataset and
+/// baseline evaluations for intrinsic image algorithms", ICCV 2009): in windows of window_px x window_px
+/// pixels, half overlapping, the squared difference in linear light after the factor that makes it least, of
+/// the truth's squares, summed over all windows before dividing. Each channel has factors of its own, as
+/// light has a tint. Only pixels whose mask is 255 count (an empty mask: all). 0 for equal pictures, 1 where
+/// nothing is alike. Nothing and Error{input} as above; Error{input} for a window under 2 pixels.
+[[nodiscard]] std::optional<double> local_albedo_error(const Image8& made, const Image8& truth,
+                                                       const Image8& mask = {}, int window_px = 20);
+
 }  // namespace drape::metrics

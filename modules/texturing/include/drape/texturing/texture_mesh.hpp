@@ -1,6 +1,8 @@
 // Photos draped over a mesh: straight into the photo, or blended on an atlas of their own.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +39,7 @@ struct TextureOptions {
   double warp_max_px = 4;
   double split_px = 1;
   Unseen unseen = Unseen::scan_colour;
+  bool delight = false;
 };
 
 inline void describe(Binder& b, TextureOptions& o) {
@@ -75,6 +78,9 @@ inline void describe(Binder& b, TextureOptions& o) {
             {"neutral", Unseen::neutral}},
            "how surface that no photo sees is shown; scan_colour, intensity: as the scanner saw it, neutral "
            "grey if it did not; inpaint: with colours that go on smoothly from what was seen");
+  b.flag("delight", o.delight,
+         "estimate each photo's light and paint the model a second time without it: the albedo, for new "
+         "light");
 }
 
 /// One photo with its camera. The stencil is the final one: as large as the photo, or empty if every pixel
@@ -122,6 +128,14 @@ struct TextureResult {
   double overhang_percent = 0;
   double background_texels_percent = 0;
   bool unseen_in_scan_colour = false;
+  /// With TextureOptions::delight: the model once more, with the same mesh and texture coordinates, in the
+  /// colours of its paint; materials "..._color" are called "..._albedo".
+  std::optional<TexturedMesh> albedo;
+  /// Where two photos see the same surface: the median difference of their log colours, their exposures
+  /// matched, before and after the light was taken out. 0 without such places.
+  double log_spread_before = 0;
+  double log_spread_after = 0;
+  std::size_t lamps = 0;  // found, over all photos
 };
 
 /// Every part of the surface that a photo sees gets texture coordinates straight into that photo, by its own
