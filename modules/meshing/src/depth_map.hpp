@@ -50,6 +50,14 @@ struct DepthMap {
     return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
   }
 
+  /// Of the pixel that the place lies in; nullptr outside of the picture.
+  [[nodiscard]] const Eigen::Vector4f* nearest(float column, float row) const {
+    if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns - 1) &&
+          row < static_cast<float>(rows - 1)))
+      return nullptr;
+    return &pixels[index(static_cast<int>(column + 0.5F), static_cast<int>(row + 0.5F))];
+  }
+
   /// A pixel's value that many pixels to the right and down on its tangent plane.
   [[nodiscard]] Eigen::Vector4f along_plane(const Eigen::Vector4f& pixel, float right, float down) const {
     const auto width = static_cast<float>(sight.width_at(static_cast<double>(pixel[0])));

@@ -71,6 +71,8 @@ class BlockSight {
   [[nodiscard]] const DepthMap& map() const { return *map_; }
 
  private:
+  [[nodiscard]] bool is_far(const Eigen::Vector4f& pixel, float depth) const;
+
   const DepthMap* map_;
   Eigen::Matrix3f picture_from_block_;
   Eigen::Vector3f at_corner_;

@@ -231,6 +231,35 @@ TEST(Poisson, NeedsNormals) {
   EXPECT_NE(message.find("normals"), std::string::npos);
 }
 
+TEST(Poisson, OptionsSetTheSizeOfItsTriangles) {
+  const PointCloud cloud = test::sampled_sphere(10, 1);
+  const auto faces = [&](double radius, double distance) {
+    MeshOptions options = with_method(Method::poisson);
+    options.poisson_radius_spacings = radius;
+    options.poisson_distance_spacings = distance;
+    return mesh_cloud(cloud, 1, options).mesh.faces.size();
+  };
+  // A face of radius r is r^2 / 20 off the sphere.
+  EXPECT_GT(faces(2, 1), 2 * faces(20, 1));
+  EXPECT_GT(faces(20, 0.1), 2 * faces(20, 1));
+}
+
+TEST(Poisson, IsTrimmedWhereAsked) {
+  PointCloud cloud;
+  const PointCloud whole = test::sampled_sphere(10, 1);
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    if (whole.positions[i].z() > 0) {
+      cloud.positions.push_back(whole.positions[i]);
+      cloud.normals.push_back(whole.normals[i]);
+    }
+  MeshOptions options = with_method(Method::poisson);
+  const MeshResult by_default = mesh_cloud(cloud, 1, options);
+  options.trim_spacings = 1.5;
+  const MeshResult close = mesh_cloud(cloud, 1, options);
+  EXPECT_GT(close.faces_trimmed, by_default.faces_trimmed);
+  EXPECT_LT(surface_area(close.mesh), surface_area(by_default.mesh));
+}
+
 TEST(ScaleSpace, FollowsNoisySamplesRoundASphere) {
   PointCloud cloud = test::sampled_sphere(10, 0.5, 0.05);
   const MeshResult result = mesh_cloud(cloud, 0.5, with_method(Method::scale_space));
