@@ -95,10 +95,10 @@ std::size_t wrong_pairs(const Posed& posed, const Registration& found, double si
     if (verbose)
       fmt::print(
           "  {:>2} {:>2}  {:<5} {:<6}  {:6.2f} deg {:6.3f} %  overlap {:5.1f} %  rms {:.3g}  through {:5.2f} "
-          "%  void {:5.2f} %  hold {:.4f}  {}\n",
+          "%  void {:5.2f} %  hold {:.4f}  contra {:.4f}  {}\n",
           pair.first, pair.second, right ? "right" : "wrong", pair.accepted ? "taken" : "left", degrees,
           100 * off / size, 100 * pair.overlap, pair.rms_m, 100 * pair.seen_through, 100 * pair.in_void,
-          pair.hold, pair.reason);
+          pair.hold, pair.contradiction, pair.reason);
   }
   return wrong;
 }

@@ -31,6 +31,7 @@ constexpr double slack_of_refined = 1.06;
 // A scan that only one other bears out has no loop to prove it: less may contradict. Right pairs, real and
 // simulated, have up to 1.1 %, mirror-like objects laid on their mirror image 2.8 %.
 constexpr double most_contradiction_alone = 0.02;  // of the firm overlap
+constexpr double most_contradiction_of_smooth_alone = 0.012;
 
 struct Pair {
   std::size_t source;
@@ -163,6 +164,7 @@ std::vector<SearchedPair> outcome(const std::vector<Pair>& pairs, const FoundPos
             best.seen_through,
             best.in_void,
             best.hold,
+            best.contradiction_of_smooth,
             false,
             best.against};
   }
@@ -265,6 +267,12 @@ std::string objection(std::size_t which, const std::vector<PlacedScan>& placed,
         "it "
         "saw nothing",
         100 * bearing_out[0].seen_through, 100 * bearing_out[0].in_void);
+  if (bearing_out.size() == 1 && bearing_out[0].contradiction_of_smooth > most_contradiction_of_smooth_alone)
+    return fmt::format(
+        "only one scan bears it out, and patches of them, {:.1f} % of what they share, lie in front of what "
+        "the "
+        "other saw or where it saw nothing",
+        100 * bearing_out[0].contradiction_of_smooth);
   return bearing_out.empty() ? closest : std::string();
 }
 

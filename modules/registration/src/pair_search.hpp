@@ -11,18 +11,24 @@
 #include "point_features.hpp"
 #include "scan_surface.hpp"
 #include "sight_map.hpp"
+#include "smooth_sight.hpp"
 
 namespace drape::registration {
 
 /// A scan with all that the search for its place looks at; refers to the surface.
 struct SearchedScan {
   SearchedScan(const ScanSurface& of, double voxel)
-      : surface(&of), coarse(of, voxel), features(point_features(coarse)), sight(of) {}
+      : surface(&of),
+        coarse(of, voxel),
+        features(point_features(coarse)),
+        sight(of),
+        smooth_sight(of, coarse) {}
 
   const ScanSurface* surface;
   CoarseScan coarse;
   Features features;
   SightMap sight;
+  SmoothSight smooth_sight;
 };
 
 /// One way that two scans may lie to each other.
@@ -31,8 +37,10 @@ struct PairPose {
   double overlap = 0;       // the larger of the two shares of points on the other's surface, 0..1
   double rms_voxels = 0;    // distance of these to it
   double seen_through = 0;  // the larger of the two shares of points that lie where the other looked through
-  double in_void = 0;   // the larger of the two shares of points that lie where the other saw nothing at all
-  double hold = 0;      // how firmly the shared surface holds each on the other, see CoarseFit
+  double in_void = 0;  // the larger of the two shares of points that lie where the other saw nothing at all
+  double hold = 0;     // how firmly the shared surface holds each on the other, see CoarseFit
+  /// What contradicts the smoothed lines of sight, each way, against what agrees with them.
+  double contradiction_of_smooth = 0;
   std::string against;  // why it is not to be believed; empty if it is
 
   /// How much contradicts the lines of sight: missing returns have other causes too, and weigh less.

@@ -133,6 +133,10 @@ bool review_found(Registration& result, const GlobalPlacement& found, const Mask
       taken_back = true;
     }
   }
+  for (SearchedPair& pair : result.searched)
+    if (pair.accepted)
+      pair.second_from_first =
+          result.scans[pair.second].world_from_scan.inverse() * result.scans[pair.first].world_from_scan;
   // No pose rests on the pairs of scans that are not placed.
   for (SearchedPair& pair : result.searched)
     for (const std::size_t end : {pair.first, pair.second})

@@ -56,6 +56,7 @@ ScanSurface::ScanSurface(const RangeScan& scan, std::span<const Eigen::Vector3f>
 ScanSurface::ScanSurface(const RangeScan& scan, double scan_spacing, std::span<const std::uint32_t> order,
                          std::span<const Eigen::Vector3f> normals)
     : view_(scan.view),
+      field_of_view_(scan),
       box_(bounding_box(scan.cloud.positions)),
       scan_spacing_(scan_spacing),
       stride_(std::max<std::size_t>(1, (scan.cloud.size() + most_points - 1) / most_points)),

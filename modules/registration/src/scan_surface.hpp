@@ -12,6 +12,7 @@
 #include "drape/geometry/kd_tree.hpp"
 #include "drape/geometry/range_scan.hpp"
 #include "drape/ingest/point_spacing.hpp"
+#include "field_of_view.hpp"
 #include "pixel_index.hpp"
 
 namespace drape::registration {
@@ -39,6 +40,7 @@ class ScanSurface {
   [[nodiscard]] const std::vector<Eigen::Vector3d>& normals() const { return normals_; }
   [[nodiscard]] const std::vector<double>& confidences() const { return confidences_; }
   [[nodiscard]] const ScanView& view() const { return view_; }
+  [[nodiscard]] const FieldOfView& field_of_view() const { return field_of_view_; }
   [[nodiscard]] const BoundingBox& box() const { return box_; }
   /// Median distance of the points that are kept.
   [[nodiscard]] double spacing() const { return spacing_; }
@@ -63,6 +65,7 @@ class ScanSurface {
 
  private:
   ScanView view_;
+  FieldOfView field_of_view_;
   BoundingBox box_;
   double scan_spacing_;
   std::size_t stride_;

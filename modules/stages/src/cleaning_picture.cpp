@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t most_drawn = 60'000;
 constexpr int side_px = 360;
+constexpr double most_upright_cosine = 0.95;  // who looks along the vertical sees no up
+constexpr double most_level_cosine = 0.7;
 
 struct Drawn {
   std::vector<Eigen::Vector3d> points;
@@ -46,12 +48,24 @@ std::vector<Eigen::Vector3d> dropped_points(const std::vector<Eigen::Vector3d>& 
   return dropped;
 }
 
+// In the scan's frame.
+Eigen::Vector3d up_of(const RangeScan& scan, const Eigen::Vector3d& front, char up) {
+  if (scan.world_from_scan) {
+    const Eigen::Vector3d world = Eigen::Vector3d::Unit(std::clamp(up - 'x', 0, 2));
+    const Eigen::Vector3d own = scan.world_from_scan->linear().transpose() * world;
+    if (std::abs(front.dot(own)) < most_upright_cosine) return own;
+  }
+  if (front.z() > most_level_cosine) return Eigen::Vector3d::UnitY();
+  if (front.z() < -most_level_cosine) return -Eigen::Vector3d::UnitY();
+  return Eigen::Vector3d::UnitZ();
+}
+
 // From the scanner, and at a right angle to that.
-std::array<report::ViewStyle, 2> views_of(const RangeScan& scan) {
+std::array<report::ViewStyle, 2> views_of(const RangeScan& scan, char up_axis) {
   Eigen::Vector3d front = -Eigen::Vector3d::UnitY();
   if (scan.view.kind != ScanView::Kind::unknown && !scan.cloud.empty())
     front = scan.view.towards_scanner(bounding_box(scan.cloud.positions).center());
-  const Eigen::Vector3d up = std::abs(front.z()) < 0.7 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d up = up_of(scan, front, up_axis);
   report::ViewStyle view{.views = 1, .width_px = side_px, .height_px = side_px, .elevation_deg = 0};
   view.up = (up - front * front.dot(up)).normalized();
   view.front = front;
@@ -62,12 +76,12 @@ std::array<report::ViewStyle, 2> views_of(const RangeScan& scan) {
 
 }  // namespace
 
-Image8 cleaning_picture(const RangeScan& raw, const RangeScan& cleaned) {
+Image8 cleaning_picture(const RangeScan& raw, const RangeScan& cleaned, char up) {
   const Drawn kept = thinned(cleaned.cloud);
   const std::vector<Eigen::Vector3d> dropped = dropped_points(raw.cloud.positions, cleaned.cloud.positions);
   std::vector<Image8> pictures;
   for (const bool before : {true, false})
-    for (const report::ViewStyle& view : views_of(cleaned)) {
+    for (const report::ViewStyle& view : views_of(cleaned, up)) {
       report::PlacedScan scan{kept.points, kept.normals, {}, Rigid3::Identity()};
       if (before) scan.dropped = dropped;
       report::ScansPictureStyle style;

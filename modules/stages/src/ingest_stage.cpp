@@ -174,7 +174,7 @@ void run(const ingest::CleanOptions& options, pipeline::StageRun& run) {
                         scan.index_in_file);
     io::write_scan_ply(run.output("scans/" + three_digits(i) + ".ply"), scan);
     write_file(run.output("cleaning/" + three_digits(i) + ".jpg"),
-               io::encode_image(cleaning_picture(scans[i], scan), "jpg", 88));
+               io::encode_image(cleaning_picture(scans[i], scan, run.input().up), "jpg", 88));
     io::ScanRecord& entry = record.scans.emplace_back();
     entry.file = scan.file;
     entry.index_in_file = scan.index_in_file;

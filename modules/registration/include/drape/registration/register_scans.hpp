@@ -83,13 +83,14 @@ struct SearchedPair {
   std::size_t first = 0;  // indices of the scans
   std::size_t second = 0;
   Rigid3 second_from_first = Rigid3::Identity();
-  double overlap = 0;       // the larger of the two shares of points on the other's surface, 0..1
-  double rms_m = 0;         // distance of these to it, of smoothed points
-  double seen_through = 0;  // the larger of the two shares of points that lie where the other looked through
-  double in_void = 0;       // the same of points that lie where the other saw nothing at all
-  double hold = 0;          // 0 where what they share slides on itself, as planes and round bodies do
-  bool accepted = false;    // whether the final poses rest on it: both scans are placed, and stayed so
-  std::string reason;       // why it is not
+  double overlap = 0;        // the larger of the two shares of points on the other's surface, 0..1
+  double rms_m = 0;          // distance of these to it, of smoothed points
+  double seen_through = 0;   // the larger of the two shares of points that lie where the other looked through
+  double in_void = 0;        // the same of points that lie where the other saw nothing at all
+  double hold = 0;           // 0 where what they share slides on itself, as planes and round bodies do
+  double contradiction = 0;  // of the smoothed lines of sight, against what agrees with them
+  bool accepted = false;     // whether the final poses rest on it: both scans are placed, and stayed so
+  std::string reason;        // why it is not
 };
 
 struct Registration {
