@@ -93,6 +93,10 @@ void print_view_and_pose(const RangeScan& scan) {
   if (scan.view.kind == ScanView::Kind::direction)
     fmt::print("  scanner  parallel rays along {}\n", vector_text(scan.view.vector));
   if (scan.world_from_scan) {
+    if (scan.world_from_scan->isApprox(Rigid3::Identity())) {
+      fmt::print("  pose     the identity\n");
+      return;
+    }
     const Eigen::AngleAxisd turn(scan.world_from_scan->linear());
     fmt::print("  pose     moved by {}, turned by {:.4g} degrees about {}\n",
                vector_text(scan.world_from_scan->translation()), turn.angle() * 180 / M_PI,
@@ -153,6 +157,8 @@ void print_poses(const std::filesystem::path& file) {
 void info_command(const InfoArguments& arguments) {
   constexpr std::size_t most_shown = 6;
   for (const std::filesystem::path& file : arguments.files) {
+    if (std::filesystem::is_regular_file(file) && std::filesystem::file_size(file) == 0)
+      throw input_error("{}: is empty", file.string());
     if (io::is_pose_file(file)) {
       print_poses(file);
       continue;

@@ -156,6 +156,8 @@ TEST(CommandLine, InfoSaysHowSoundAMeshIs) {
   EXPECT_TRUE(
       contains(run_drape({"info", "closed.off"}, folder.path()).out, "volume                   0.166667\n"));
   write_file(folder / "bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
+  write_file(folder / "empty.ply", "");
+  EXPECT_TRUE(contains(run_drape({"info", "empty.ply"}, folder.path()).err, "empty.ply: is empty"));
   const Outcome bad = run_drape({"info", "bad.off"}, folder.path());
   EXPECT_EQ(bad.exit_code, 65);
   EXPECT_TRUE(contains(bad.err, "bad.off")) << bad.err;

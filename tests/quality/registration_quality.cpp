@@ -145,8 +145,9 @@ void measure_captures(const std::vector<std::string>& names, bool verbose) {
                  pair.rms_m / std::max(two[0].spacing, two[1].spacing), 100 * pair.overlap);
     for (const auto& pair : found.searched)
       fmt::print(
-          " (searched: overlap {:.0f} %, rms {:.3g}, through {:.1f} %, hold {:.3f}, turned {:.0f} deg)",
-          100 * pair.overlap, pair.rms_m, 100 * pair.seen_through, pair.hold,
+          " (searched: overlap {:.0f} %, rms {:.3g}, through {:.1f} %, hold {:.3f}, contra {:.4f}, turned "
+          "{:.0f} deg)",
+          100 * pair.overlap, pair.rms_m, 100 * pair.seen_through, pair.hold, pair.contradiction,
           degrees_between(pair.second_from_first.linear(), Eigen::Matrix3d::Identity()));
     fmt::print(", {:.1f} s{}{}\n", cpu_seconds() - start, verbose ? "; " : "",
                verbose ? found.scans[1].reason : "");
@@ -285,7 +286,7 @@ void measure_pairs(int count, std::uint64_t seed, bool verbose) {
 }
 
 // Two scans of one object and one of another.
-void measure_aliens(bool verbose) {
+void measure_aliens(std::uint64_t seed, bool verbose) {
   const std::map<std::string, Solid> objects = solids();
   int trials = 0;
   int placed = 0;
@@ -293,7 +294,7 @@ void measure_aliens(bool verbose) {
   for (const auto& [name, object] : objects)
     for (const auto& [other_name, other] : objects) {
       if (name == other_name) continue;
-      Rng rng(item_seed(5, static_cast<std::uint64_t>(trials)));
+      Rng rng(item_seed(seed, static_cast<std::uint64_t>(trials)));
       std::vector<RangeScan> scans;
       const Eigen::Vector3d first = random_direction(rng);
       const Eigen::Vector3d second = Eigen::AngleAxisd(0.7, first.unitOrthogonal()) * first;
@@ -372,7 +373,7 @@ int main(int count, char** texts) {
           verbose);
       drape::measure_captures({"pcl_room/room_scan1.pcd", "pcl_room/room_scan2.pcd"}, verbose);
     }
-    if (all || alien) drape::measure_aliens(verbose);
+    if (all || alien) drape::measure_aliens(seed, verbose);
     if (all || round) drape::measure_round(verbose);
     if (all || pairs) drape::measure_pairs(pairs.value_or(200), seed, verbose);
   });

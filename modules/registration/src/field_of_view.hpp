@@ -23,7 +23,7 @@ class FieldOfView {
   [[nodiscard]] std::optional<Eigen::Vector3d> place_of(const Eigen::Vector3d& point) const;
 
   ScanView view_;
-  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();                               // rays along the last
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();                                 // rays along the last
   Eigen::Matrix<double, 2, 3> cell_from_place_ = Eigen::Matrix<double, 2, 3>::Zero();  // of (x, y, 1)
   Eigen::Array2d size_ = Eigen::Array2d::Zero();
   bool known_ = false;

@@ -100,7 +100,8 @@ SmoothSight::Seen SmoothSight::judge_surface(const Eigen::Vector3d& point, const
   float cosine = 0;
   for (std::ptrdiff_t r = -1; r <= 1; ++r)
     for (std::ptrdiff_t c = -1; c <= 1; ++c) {
-      const Pixel& seen = pixels_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(pixel) + r * columns_ + c)];
+      const Pixel& seen =
+          pixels_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(pixel) + r * columns_ + c)];
       if (seen.count == 0) return Seen::nothing_told;
       const Eigen::Vector3f step = local - seen.point;
       const float distance = seen.normal.dot(step);
@@ -111,7 +112,7 @@ SmoothSight::Seen SmoothSight::judge_surface(const Eigen::Vector3d& point, const
       }
     }
   if (static_cast<double>(least) > tolerance) return Seen::in_front;
-  return static_cast<double>(closest) < tolerance && static_cast<double>(cosine) > agreeing_cosine
+  return static_cast<double>(closest)<tolerance&& static_cast<double>(cosine)> agreeing_cosine
              ? Seen::agreeing
              : Seen::nothing_told;
 }
@@ -123,9 +124,10 @@ SmoothSight::Seen SmoothSight::judge(const Eigen::Vector3d& point, const Eigen::
   const Eigen::Array2d cell = cell_of(sighting->place);
   const bool inside = cell.x() >= 1 && cell.y() >= 1 && cell.x() < static_cast<double>(columns_ - 1) &&
                       cell.y() < static_cast<double>(rows_ - 1);
-  const std::size_t pixel = inside ? static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell.y()) * columns_ +
-                                                              static_cast<std::ptrdiff_t>(cell.x()))
-                                   : 0;
+  const std::size_t pixel = inside
+                                ? static_cast<std::size_t>(static_cast<std::ptrdiff_t>(cell.y()) * columns_ +
+                                                           static_cast<std::ptrdiff_t>(cell.x()))
+                                : 0;
   if (!inside || !pixels_[pixel].near) {
     const bool looked = inside || viewer_->field_of_view().contains(point);
     return looked && viewer_->view().towards_scanner(point).dot(normal) > facing_cosine ? Seen::in_void

@@ -13,8 +13,9 @@
 
 namespace drape::registration {
 
-/// Shares of all points of a scan, 0..1. Contradictions count in patches only, where most points around show the
-/// same: what noise and the rounding of edges leave in front is scattered, what does not belong there is not.
+/// Shares of all points of a scan, 0..1. Contradictions count in patches only, where most points around show
+/// the same: what noise and the rounding of edges leave in front is scattered, what does not belong there is
+/// not.
 struct SightShares {
   double agreeing = 0;  // on the viewer's surface, facing the same way
   double in_front = 0;  // before all of the surface that the viewer saw there: it looked through them

@@ -25,22 +25,21 @@ struct Seen {
 SightShares compared(const test::ScannedShape& shape, const Rigid3& moved) {
   const Seen viewer(shape.scans[0]);
   const Seen source(shape.scans[1]);
-  return viewer.sight.compare(source.coarse,
-                              moved * shape.world_from_scan[0].inverse() * shape.world_from_scan[1],
-                              0.8 * noise);
+  return viewer.sight.compare(
+      source.coarse, moved * shape.world_from_scan[0].inverse() * shape.world_from_scan[1], 0.8 * noise);
 }
 
 TEST(SmoothSight, NothingOfARightPairContradictsThoughItIsNoisy) {
   const SightShares shares = compared(test::scan_from_sides(test::balls_field(), noise), Rigid3::Identity());
-  EXPECT_GT(shares.agreeing, 0.4);
-  EXPECT_LT(shares.in_front, 0.002 * shares.agreeing);
-  EXPECT_LT(shares.in_void, 0.002 * shares.agreeing);
+  EXPECT_GT(shares.agreeing, 0.3);
+  EXPECT_LT(shares.in_front, 0.01 * shares.agreeing);
+  EXPECT_LT(shares.in_void, 0.01 * shares.agreeing);
 }
 
 TEST(SmoothSight, TwoDeviationsTowardsTheScannerShow) {
   const Rigid3 nearer(Eigen::Translation3d(0, 0, 2 * noise));
   const SightShares shares = compared(test::scan_from_sides(test::balls_field(), noise), nearer);
-  EXPECT_GT(shares.in_front, 0.2);
+  EXPECT_GT(shares.in_front, 0.1);
 }
 
 TEST(SmoothSight, WhatLiesBehindIsHidden) {
@@ -49,13 +48,13 @@ TEST(SmoothSight, WhatLiesBehindIsHidden) {
   EXPECT_LT(shares.in_front, 0.02);
 }
 
-TEST(SmoothSight, BesideTheObjectIsVoidOnlyWhereTheScannerLooked) {
-  test::ScannedShape shape = test::scan_from_sides(test::balls_field(), noise);
-  const Rigid3 aside(Eigen::Translation3d(-12, 0, 0));
-  const double with_grid = compared(shape, aside).in_void;
-  EXPECT_GT(with_grid, 0.05);
+TEST(SmoothSight, BesideTheObjectIsVoidWhereTheScannerLooked) {
+  test::ScannedShape shape = test::scan_from_sides(test::sphere_field(8, {-15, 0, 0}), 0.1);
+  const Rigid3 aside(Eigen::Translation3d(30, 0, 0));
+  EXPECT_GT(compared(shape, aside).in_void, 0.3);
+  EXPECT_EQ(compared(shape, Rigid3::Identity()).in_void, 0);
   shape.scans[0].grid.reset();
-  EXPECT_LT(compared(shape, aside).in_void, with_grid) << "without a grid its field of view is not known";
+  EXPECT_EQ(compared(shape, aside).in_void, 0) << "without a grid its field of view is not known";
 }
 
 TEST(SmoothSight, DivergingRaysHaveAFieldOfViewToo) {
