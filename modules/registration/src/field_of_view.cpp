@@ -13,6 +13,7 @@ constexpr std::size_t enough_cells = 4000;
 constexpr std::size_t least_cells = 50;
 constexpr double most_cells_off = 1;
 constexpr double margin_cells = 2;
+constexpr double least_border_missing = 0.9;
 constexpr double least_forward = 0.3;  // cosine to the mean ray
 
 struct Cell {
@@ -33,10 +34,25 @@ std::vector<Cell> some_cells(const RangeScan& scan) {
   return cells;
 }
 
+// Whether nothing came back all along the border of the grid: the object is alone.
+bool is_alone(const RangeGrid& grid) {
+  int missing = 0;
+  int all = 0;
+  const auto count = [&](int row, int column) {
+    missing += grid.at(row, column) == RangeGrid::missing ? 1 : 0;
+    ++all;
+  };
+  for (int row = 0; row < grid.rows; ++row)
+    for (const int column : {0, grid.columns - 1}) count(row, column);
+  for (int column = 0; column < grid.columns; ++column)
+    for (const int row : {0, grid.rows - 1}) count(row, column);
+  return missing >= least_border_missing * all;
+}
+
 }  // namespace
 
 FieldOfView::FieldOfView(const RangeScan& scan) : view_(scan.view) {
-  if (!scan.grid || view_.kind == ScanView::Kind::unknown) return;
+  if (!scan.grid || view_.kind == ScanView::Kind::unknown || !is_alone(*scan.grid)) return;
   const std::vector<Cell> cells = some_cells(scan);
   if (cells.size() < least_cells) return;
   Eigen::Vector3d ray = Eigen::Vector3d::Zero();

@@ -9,8 +9,8 @@
 namespace drape::registration {
 
 /// The rectangle of rays that a scan's grid covers, as an affine map from the image plane to rows and columns
-/// (parallel rays, or a pinhole round the mean ray). Unknown without a grid, without a view, and where the
-/// grid is of another kind, as that of a scanner which turns about itself.
+/// (parallel rays, or a pinhole round the mean ray). Unknown without a grid or a view, in scenes, and where
+/// the grid is of another kind, as that of a scanner which turns about itself.
 class FieldOfView {
  public:
   explicit FieldOfView(const RangeScan& scan);

@@ -46,7 +46,7 @@ constexpr double sight_tolerance_voxels = 0.5;
 constexpr double sight_tolerance_deviations = 2.5;
 // Patches of a scan that lie in front of what the other saw, or in its void: up to 0.1 % of what agrees in
 // right simulated pairs, over 1.5 % in the wrong ones that nothing else gives away.
-constexpr double most_contradiction_of_smooth = 0.03;
+constexpr double half_sure = 0.01;
 constexpr double smooth_tolerance_voxels = 0.3;
 constexpr double smooth_tolerance_deviations = 0.8;
 constexpr double least_agreeing = 0.02;
@@ -153,7 +153,7 @@ bool alike(const Rigid3& a, const Rigid3& b, const CoarseScan& scan) {
 double PairPose::score() const {
   const double sure = evidence(overlap, hold, contradiction());
   // Poses of the same pair differ in this more than in all else.
-  return sure > 0 ? sure * std::max(0.0, 1 - contradiction_of_smooth / most_contradiction_of_smooth) : sure;
+  return sure > 0 ? sure / (1 + contradiction_of_smooth / half_sure) : sure;
 }
 
 double PairPose::relative_contradiction() const {

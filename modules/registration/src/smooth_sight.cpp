@@ -129,9 +129,10 @@ SmoothSight::Seen SmoothSight::judge(const Eigen::Vector3d& point, const Eigen::
                                                            static_cast<std::ptrdiff_t>(cell.x()))
                                 : 0;
   if (!inside || !pixels_[pixel].near) {
-    const bool looked = inside || viewer_->field_of_view().contains(point);
-    return looked && viewer_->view().towards_scanner(point).dot(normal) > facing_cosine ? Seen::in_void
-                                                                                        : Seen::nothing_told;
+    return viewer_->field_of_view().contains(point) &&
+                   viewer_->view().towards_scanner(point).dot(normal) > facing_cosine
+               ? Seen::in_void
+               : Seen::nothing_told;
   }
   // Ranges are less certain where rays have spread.
   const double scale = median_range_ > 0 ? std::max(1.0, sighting->depth / median_range_) : 1.0;
