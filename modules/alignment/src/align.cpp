@@ -6,6 +6,7 @@
 
 #include "drape/base/error.hpp"
 #include "exhaustive_alignment.hpp"
+#include "object_box.hpp"
 #include "silhouette_alignment.hpp"
 
 namespace drape::alignment {
@@ -16,23 +17,40 @@ bool shows_object(const Image8& stencil) {
   return std::find(stencil.data().begin(), stencil.data().end(), stencil::object) != stencil.data().end();
 }
 
-// The stencil alone where it was given; else it first, and the colours where it proves nothing.
+// How much of the outline is where the photo, or its stencil, has one; 0..1.
+double outline_support(const Alignment& alignment) {
+  return alignment.inlier_fraction * alignment.edge_support.value_or(1);
+}
+
+// The enumeration of verdicts goes from the best to the worst; between poses for review the outline decides,
+// whatever it was found by.
+void keep_better(Alignment& best, Alignment next) {
+  const bool tie = next.verdict == best.verdict && outline_support(next) > outline_support(best);
+  if (best.candidates.empty() || next.verdict < best.verdict || tie) best = std::move(next);
+}
+
+// The stencil alone where it was given. Else it first, and the colours where it proves nothing: those round
+// the stencil's object, then those of the whole photo.
 Alignment by_better_evidence(const TriangleMesh& mesh, const PhotoEvidence& evidence, AlignOptions options,
                              const Progress& progress) {
   const bool has_stencil = shows_object(evidence.stencil);
   const bool given = evidence.photo == nullptr || (has_stencil && evidence.stencil_confidence == 1);
-  Alignment first;
+  Alignment best;
   if (has_stencil || given) {
     options.evidence = EvidenceKind::stencil;
-    first = align_silhouette(mesh, evidence, options, given ? progress : progress.part(0, 0.5));
-    if (given || first.verdict == Verdict::accept) return first;
+    best = align_silhouette(mesh, evidence, options, given ? progress : progress.part(0, 0.3));
+    if (given || best.verdict == Verdict::accept) return best;
   }
   options.evidence = EvidenceKind::colour;
-  Alignment second =
-      align_silhouette(mesh, evidence, options, has_stencil ? progress.part(0.5, 1) : progress);
-  // The enumeration goes from the best to the worst.
-  const bool better = !has_stencil || second.verdict < first.verdict;
-  return better ? second : first;
+  if (has_stencil && !evidence.box_px && !evidence.click_px) {
+    PhotoEvidence boxed = evidence;
+    boxed.box_px = object_box(evidence.stencil);
+    keep_better(best, align_silhouette(mesh, boxed, options, progress.part(0.3, 0.5)));
+    if (best.verdict == Verdict::accept) return best;
+  }
+  keep_better(best,
+              align_silhouette(mesh, evidence, options, has_stencil ? progress.part(0.5, 1) : progress));
+  return best;
 }
 
 }  // namespace

@@ -248,6 +248,7 @@ Agreement ColorEvidence::match(const OutlineDrawing& drawing, int level_index, d
 
 SearchPlan ColorEvidence::plan() const {
   SearchPlan plan;
+  plan.good_score = 0;  // the search has no other places to look at: a second one would find the same
   plan.candidates = 120;
   plan.most_frames = levels_.front().box ? 64 : 150;
   plan.distinct_place = plan.distinct_size = 0.2;

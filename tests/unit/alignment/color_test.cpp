@@ -11,6 +11,7 @@
 #include "color_rolls.hpp"
 #include "drape/alignment/align.hpp"
 #include "drape/base/random.hpp"
+#include "object_box.hpp"
 #include "support.hpp"
 
 namespace drape::alignment {
@@ -203,6 +204,32 @@ TEST(Colours, FindThePoseRoundAClick) {
             stencil::object);
   const Alignment found = align_photo(scene.mesh, evidence, by(EvidenceKind::colour), 1, {});
   EXPECT_LT(rotation_between_deg(found.camera, scene.truth), 1.5);
+}
+
+// A stencil of no use as a shape, as one with the plinth or the shadow, still tells where the object is.
+TEST(Colours, AreSoughtWhereAWrongStencilSays) {
+  const Scene scene;
+  const auto [x, y, w, h] = scene.box();
+  Image8 block(480, 360, 1, stencil::background);
+  for (int v = 0; v < 360; ++v)
+    for (int u = 0; u < 480; ++u)
+      if (u > x + 0.1 * w && u < x + 0.9 * w && v > y + 0.1 * h && v < y + 0.9 * h)
+        block.at(u, v) = stencil::object;
+  PhotoEvidence evidence{block, std::nullopt, &scene.rgb};
+  evidence.stencil_confidence = 0.3;
+  const Alignment found = align_photo(scene.mesh, evidence, {}, 1, {});
+  EXPECT_LT(rotation_between_deg(found.camera, scene.truth), 1.5);
+  EXPECT_EQ(found.evidence, EvidenceKind::colour);
+}
+
+TEST(ObjectBox, IsRoundTheLargestPartWithSomeRoom) {
+  Image8 shape(200, 100, 1, stencil::background);
+  EXPECT_FALSE(object_box(shape).has_value());
+  for (int y = 20; y < 60; ++y)
+    for (int x = 100; x < 195; ++x) shape.at(x, y) = stencil::object;
+  for (int y = 10; y < 14; ++y)
+    for (int x = 5; x < 9; ++x) shape.at(x, y) = stencil::object;
+  EXPECT_EQ(object_box(shape), (std::array{90.5, 16.0, 109.5, 48.0}));  // cut off where the photo ends
 }
 
 // Segments that part the body and the ground at random, but never run across the outline.

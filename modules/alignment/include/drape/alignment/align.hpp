@@ -53,9 +53,8 @@ inline void describe(Binder& b, AlignOptions& o) {
       "silhouette: what of the photo the mesh is compared with. stencil: the outline that segment found; "
       "segments: any union of segment's segments; "
       "colour: the photo's colours, inside box_px, round click_px or anywhere, with no need of a stencil; "
-      "auto: a given mask alone; else the stencil, and where that proves no pose the colours as well, and "
-      "the "
-      "better verdict wins");
+      "auto: a given mask alone; else the stencil, where that proves no pose the colours round the stencil's "
+      "object, then those of the whole photo, and the better verdict wins");
   b.choice(
       "projection", o.projection,
       {{"perspective", Camera::Projection::perspective}, {"orthographic", Camera::Projection::orthographic}},
