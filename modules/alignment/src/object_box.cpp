@@ -16,7 +16,8 @@ std::optional<std::array<double, 4>> object_box(const Image8& stencil) {
   const int count = cv::connectedComponentsWithStats(object, labels, statistics, middles);
   int largest = 0;  // the background
   for (int i = 1; i < count; ++i)
-    if (largest == 0 || statistics.at<int>(i, cv::CC_STAT_AREA) > statistics.at<int>(largest, cv::CC_STAT_AREA))
+    if (largest == 0 ||
+        statistics.at<int>(i, cv::CC_STAT_AREA) > statistics.at<int>(largest, cv::CC_STAT_AREA))
       largest = i;
   if (largest == 0) return std::nullopt;
   const double x = statistics.at<int>(largest, cv::CC_STAT_LEFT);

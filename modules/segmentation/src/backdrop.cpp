@@ -24,7 +24,8 @@ constexpr float mode_width = 3;        // Lab units: how far from a sheet's comm
 constexpr float least_step = 2.5F;     // and how far its pixels may be off, or so far as its noise asks for
 constexpr int seam_px = 2;             // between two sheets, where their colours mix
 constexpr float least_difference = 6;  // Lab units, that an object differs from its backdrop by
-constexpr float noise_multiple = 5;    // ... or so many deviations of the backdrop
+constexpr float noise_multiple = 5;    // ... or so many deviations of the backdrop,
+constexpr float most_difference = 25;  // but what varies by more than this is not smooth
 constexpr float shadow_weight = 0.6F;  // of a backdrop that is only darker: an object's shadow on it
 
 using Terms = Eigen::Matrix<double, 1, term_count>;
@@ -155,6 +156,10 @@ float limit_of(const std::vector<float>& noise) {
   return std::max(least_difference, noise_multiple * 1.4826F * median(noise));
 }
 
+float smooth_limit_of(const std::vector<float>& noise) {
+  return std::min(most_difference, limit_of(noise));
+}
+
 /// One smooth part of a backdrop: the wall, the floor, the top of a table.
 struct Sheet {
   Surface surface = Surface::Zero();
@@ -197,7 +202,7 @@ Sheet sheet_of(const ImageF& lab, const Mask& open, const Mask& taken) {
   for (int round = 0; round < sheet_growing_rounds; ++round) {
     sheet.surface = robust_fit(lab, sheet.grown);
     const std::vector<float> noise = residuals(sheet.surface, lab, sheet.grown);
-    sheet.limit = limit_of(noise);
+    sheet.limit = smooth_limit_of(noise);
     const float step = std::max(least_step, noise_multiple * 1.4826F * median(noise));
     for (int y = 0; y < lab.height(); ++y)
       for (int x = 0; x < lab.width(); ++x)
@@ -292,7 +297,7 @@ Backdrop smooth_backdrop(const ImageF& lab) {
   float limit = least_difference;
   for (int round = 0; round < growing_rounds; ++round) {
     const Surface surface = robust_fit(lab, used);
-    limit = limit_of(residuals(surface, lab, used));
+    limit = smooth_limit_of(residuals(surface, lab, used));
     for (int y = 0; y < lab.height(); ++y)
       for (int x = 0; x < lab.width(); ++x) difference.at(x, y) = residual(surface, lab, x, y);
     used = grown_from_border(difference, limit);
