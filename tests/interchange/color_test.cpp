@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "drape/base/files.hpp"
+#include "drape/base/random.hpp"
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/texturing/texture_mesh.hpp"
@@ -34,9 +35,13 @@ Profile profile_of(const cmsCIExyY& white, const cmsCIExyYTRIPLE& primaries, dou
   cmsFreeToneCurve(curve);
   return profile;
 }
-// Adobe RGB (1998), by its published primaries.
+// Adobe RGB (1998) and ROMM RGB (ISO 22028-2), by their published primaries.
 Profile adobe_rgb() {
   return profile_of({0.3127, 0.3290, 1}, {{0.64, 0.33, 1}, {0.21, 0.71, 1}, {0.15, 0.06, 1}}, 563.0 / 256);
+}
+Profile pro_photo() {
+  return profile_of({0.3457, 0.3585, 1}, {{0.7347, 0.2653, 1}, {0.1596, 0.8404, 1}, {0.0366, 0.0001, 1}},
+                    1.8);
 }
 std::string bytes_of(const Profile& profile) {
   cmsUInt32Number size = 0;
@@ -46,9 +51,8 @@ std::string bytes_of(const Profile& profile) {
   return bytes;
 }
 
-/// A TIFF of 16 bit of the colours (sRGB, 0..255) as a program would store them that works in the profile's
-/// space.
-std::string tiff_in(const Profile& profile, const Image8& srgb) {
+/// A TIFF of the colours (sRGB, 0..255) as a program would store them that works in the profile's space.
+std::string tiff_in(const Profile& profile, const Image8& srgb, int bits) {
   const Profile standard(cmsCreate_sRGBProfile());
   cmsHTRANSFORM transform = cmsCreateTransform(standard.get(), TYPE_RGB_DBL, profile.get(), TYPE_RGB_DBL,
                                                INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOOPTIMIZE);
@@ -60,14 +64,17 @@ std::string tiff_in(const Profile& profile, const Image8& srgb) {
       std::array<double, 3> to{};
       cmsDoTransform(transform, from.data(), to.data(), 1);
       for (const double value : to) {
-        samples += raw(static_cast<std::uint16_t>(std::lround(65535 * std::clamp(value, 0.0, 1.0))), false);
+        const double most = bits == 16 ? 65535 : 255;
+        const auto stored = static_cast<std::uint16_t>(std::lround(most * std::clamp(value, 0.0, 1.0)));
+        samples += bits == 16 ? raw(stored, false) : raw(static_cast<std::uint8_t>(stored), false);
       }
     }
   cmsDeleteTransform(transform);
+  const auto depth = static_cast<std::uint16_t>(bits);
   TiffBuilder tiff(false);
   tiff.add_long(256, static_cast<std::uint32_t>(srgb.width()));
   tiff.add_long(257, static_cast<std::uint32_t>(srgb.height()));
-  tiff.add_shorts(258, {16, 16, 16});
+  tiff.add_shorts(258, {depth, depth, depth});
   tiff.add_short(259, 1);
   tiff.add_short(262, 2);
   tiff.add_short(277, 3);
@@ -75,6 +82,26 @@ std::string tiff_in(const Profile& profile, const Image8& srgb) {
   tiff.add_undefined(34675, bytes_of(profile));
   tiff.add_pixels(samples);
   return tiff.bytes();
+}
+
+TEST(ColorProfile, AgreesWithLittleCms) {
+  Rng rng(8);
+  Image8 image(24, 24, 3);
+  for (std::uint8_t& value : image.data()) value = static_cast<std::uint8_t>(20 + rng.below(220));
+  const ScratchFolder folder;
+  const Profile adobe = adobe_rgb();
+  const Profile romm = pro_photo();
+  for (const auto& [profile, bits, most] : {std::tuple(&adobe, 16, 1), std::tuple(&romm, 16, 1),
+                                            // A byte step of strong green is several of faint red.
+                                            std::tuple(&adobe, 8, 6)}) {
+    std::filesystem::remove(folder / "x.tif");
+    write_file(folder / "x.tif", tiff_in(*profile, image, bits));
+    const Image8 read = io::read_photo(folder / "x.tif").rgb;
+    int worst = 0;
+    for (std::size_t i = 0; i < image.data().size(); ++i)
+      worst = std::max(worst, std::abs(image.data()[i] - read.data()[i]));
+    EXPECT_LE(worst, most) << bits << " bits";
+  }
 }
 
 Vector3d lab_of(const Vector3d& srgb) {  // 0..255; to D65
@@ -176,7 +203,7 @@ Camera straight_on(double scale) {
 
 TEST(ColorChecker, KeepsEveryPatchFromTheFileToTheModel) {
   const ScratchFolder folder;
-  write_file(folder / "chart.tif", tiff_in(adobe_rgb(), chart()));
+  write_file(folder / "chart.tif", tiff_in(adobe_rgb(), chart(), 16));
   const io::Photo photo = io::read_photo(folder / "chart.tif");
   const TriangleMesh mesh = board();
   const Camera camera = straight_on(1);

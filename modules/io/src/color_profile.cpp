@@ -11,7 +11,19 @@
 namespace drape::io {
 namespace {
 
-using Curve = std::array<double, 256>;  // linear value of each byte
+// Linear values at even steps from 0 to 1; bytes are at every 17th.
+constexpr std::size_t steps_per_byte = 17;
+constexpr std::size_t curve_steps = 255 * steps_per_byte;
+using Curve = std::array<double, curve_steps + 1>;
+
+double at_sample(const Curve& curve, std::uint8_t value) {
+  return curve[steps_per_byte * value];
+}
+double at_sample(const Curve& curve, std::uint16_t value) {
+  const double place = value * (static_cast<double>(curve_steps) / 65535);
+  const auto below = std::min(static_cast<std::size_t>(place), curve_steps - 1);
+  return curve[below] + (place - static_cast<double>(below)) * (curve[below + 1] - curve[below]);
+}
 
 struct Profile {
   Eigen::Matrix3d xyz_from_linear;  // D50, as the profile connection space has it
@@ -77,7 +89,7 @@ std::optional<Curve> parametric_curve(const IccBytes& icc, std::size_t at) {
   const double limit = *type < 3 ? (a != 0 ? -b / a : 0) : d;
   Curve curve{};
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const double x = static_cast<double>(i) / 255;
+    const double x = static_cast<double>(i) / curve_steps;
     const bool above = *type == 0 || x >= limit;
     switch (*type) {
       case 2:
@@ -103,7 +115,7 @@ std::optional<Curve> sampled_curve(const IccBytes& icc, std::size_t at) {
   if (!count || !icc.number(at + 12, 2 * std::min<std::size_t>(*count, 2))) return std::nullopt;
   Curve curve{};
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const double x = static_cast<double>(i) / 255;
+    const double x = static_cast<double>(i) / curve_steps;
     if (*count == 0) {
       curve[i] = x;
     } else if (*count == 1) {
@@ -167,9 +179,11 @@ class Converter {
         srgb_from_linear_(srgb_from_xyz() * profile.xyz_from_linear),
         table_(encoding_table()) {}
 
-  [[nodiscard]] std::array<std::uint8_t, 3> operator()(std::uint8_t r, std::uint8_t g, std::uint8_t b) const {
+  template <class Sample>
+  [[nodiscard]] std::array<std::uint8_t, 3> operator()(Sample r, Sample g, Sample b) const {
     const Eigen::Vector3d linear =
-        srgb_from_linear_ * Eigen::Vector3d(curves_[0][r], curves_[1][g], curves_[2][b]);
+        srgb_from_linear_ *
+        Eigen::Vector3d(at_sample(curves_[0], r), at_sample(curves_[1], g), at_sample(curves_[2], b));
     std::array<std::uint8_t, 3> bytes{};
     for (std::size_t k = 0; k < 3; ++k)
       bytes[k] = table_[static_cast<std::size_t>(
@@ -211,6 +225,20 @@ SrgbPicture to_srgb(Image8 rgb, std::string_view icc) {
     std::copy(bytes.begin(), bytes.end(), data.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return {std::move(rgb), ProfileKind::applied};
+}
+
+std::optional<Image8> to_srgb(const Image16& rgb, std::string_view icc) {
+  const auto profile = parsed(icc);
+  if (!profile) return std::nullopt;
+  const Converter convert(*profile);
+  if (convert.changes_nothing()) return std::nullopt;
+  Image8 result(rgb.width(), rgb.height(), 3);
+  const std::vector<std::uint16_t>& data = rgb.data();
+  for (std::size_t i = 0; i + 2 < data.size(); i += 3) {
+    const auto bytes = convert(data[i], data[i + 1], data[i + 2]);
+    std::copy(bytes.begin(), bytes.end(), result.data().begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return result;
 }
 
 }  // namespace drape::io

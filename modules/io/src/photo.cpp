@@ -112,7 +112,8 @@ Opened opened(const std::filesystem::path& file) {
   result.exif = read_exif(result.header.exif);
   // OpenCV turns TIFFs by their tag, and them alone.
   const bool tiff = result.header.format == PictureFormat::tiff;
-  result.picture = decode_picture(name, tiff ? without_orientation(bytes) : bytes);
+  result.picture =
+      decode_picture(name, tiff ? without_orientation(bytes) : bytes, !result.header.icc.empty());
   result.header.exif = {};
   const Image8& pixels = result.picture.pixels;
   if (static_cast<std::uint64_t>(pixels.width()) != result.header.width ||
@@ -136,7 +137,12 @@ Photo read_photo(const std::filesystem::path& file) {
   const Opened photo = opened(file);
   const Image8 pixels = upright(photo.picture.pixels, photo.exif.orientation);
   Photo result;
-  SrgbPicture colors = to_srgb(rgb_of(pixels), photo.header.icc);
+  SrgbPicture colors;
+  if (auto converted =
+          photo.picture.deep_rgb.empty() ? std::nullopt : to_srgb(photo.picture.deep_rgb, photo.header.icc))
+    colors = {upright(*converted, photo.exif.orientation), ProfileKind::applied};
+  else
+    colors = to_srgb(rgb_of(pixels), photo.header.icc);
   tell_profile(file, photo.header, colors.kind);
   result.rgb = std::move(colors.rgb);
   result.alpha = alpha_of(pixels);

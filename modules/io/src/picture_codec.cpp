@@ -90,6 +90,14 @@ DecodedPicture converted(const cv::Mat& mat) {
   return picture;
 }
 
+Image16 deep_rgb(const cv::Mat& mat) {
+  Image16 rgb(mat.cols, mat.rows, 3);
+  for (int y = 0; y < mat.rows; ++y)
+    for (int x = 0; x < mat.cols; ++x)
+      for (int c = 0; c < 3; ++c) rgb.at(x, y, c) = mat.ptr<std::uint16_t>(y)[x * mat.channels() + 2 - c];
+  return rgb;
+}
+
 cv::Mat mat_of(const Image8& image) {
   const int channels = image.channels();
   cv::Mat mat(image.height(), image.width(), CV_8UC(channels));
@@ -145,11 +153,15 @@ ImageF decode_depth(const std::string& file, std::string_view bytes) {
   return depth;
 }
 
-DecodedPicture decode_picture(const std::string& file, std::string_view bytes) {
+DecodedPicture decode_picture(const std::string& file, std::string_view bytes, bool keep_depth) {
   const cv::Mat mat = decoded(file, bytes);
   if (mat.channels() == 1 || mat.channels() == 3 || mat.channels() == 4) {
     if (mat.depth() == CV_8U) return converted<std::uint8_t>(mat);
-    if (mat.depth() == CV_16U) return converted<std::uint16_t>(mat);
+    if (mat.depth() == CV_16U) {
+      DecodedPicture picture = converted<std::uint16_t>(mat);
+      if (keep_depth && mat.channels() >= 3) picture.deep_rgb = deep_rgb(mat);
+      return picture;
+    }
   }
   throw input_error("{}: holds neither 8-bit nor 16-bit grey or colour values: convert it to PNG first",
                     file);

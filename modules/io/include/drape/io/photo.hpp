@@ -10,8 +10,8 @@
 namespace drape::io {
 
 struct Photo {
-  // Upright: EXIF orientation applied; 16 bit reduced to 8; grey spread to 3 channels; an embedded colour
-  // profile (ICC matrix and curves; in JPEG, TIFF and WebP) converted to sRGB.
+  // Upright: EXIF orientation applied; 16 bit reduced to 8, after the profile; grey spread to 3 channels; an
+  // embedded colour profile (ICC matrix and curves; in JPEG, TIFF and WebP) converted to sRGB.
   Image8 rgb;
   Image8 alpha;  // 1 channel; empty if the file has none or is opaque everywhere
   // From EXIF: the focal length for 35 mm film (36 mm wide: the longer side), else the focal length and the
