@@ -87,7 +87,7 @@ Row measure(const Model& model, const Cell& cell, int poses, const Settings& set
     Trial trial = align_shot(model, cell, shot, settings.options);
     trial.index = i;
     features.add(cell.name, model.name, i, trial.right ? "right" : "wrong", trial.about_ray_deg,
-                 trial.verdict, trial.outline);
+                 trial.verdict, trial.outline, trial.sigma_deg);
     row.trials.push_back(std::move(trial));
   }
   return row;

@@ -9,8 +9,11 @@
 #include "block_pose.hpp"
 #include "drape/alignment/align_block.hpp"
 #include "drape/base/error.hpp"
+#include "noisy_outline.hpp"
+#include "outline_figures.hpp"
 #include "photo_plane.hpp"
 #include "pose_search.hpp"
+#include "pose_verdict.hpp"
 #include "simplified_mesh.hpp"
 #include "stencil_evidence.hpp"
 #include "verdict_limits.hpp"
@@ -31,6 +34,7 @@ struct Shot {
       : camera_from_block(given.camera_from_block),
         width(given.evidence.stencil.width()),
         height(given.evidence.stencil.height()),
+        object_px(object_extent(given.evidence.stencil)),
         plane(width, height, given.evidence.lens),
         outline(given.evidence.stencil, plane) {
     const double focal =
@@ -43,6 +47,7 @@ struct Shot {
   Rigid3 camera_from_block;
   int width;
   int height;
+  double object_px;
   PhotoPlane plane;
   StencilEvidence outline;
   Eigen::Matrix3d ideal_K = Eigen::Matrix3d::Identity();
@@ -88,6 +93,10 @@ class BlockRefinement {
 
   [[nodiscard]] Fit fit(const Similarity& similarity, const Plan& plan);
 
+  /// Of one photo at its last level.
+  [[nodiscard]] Agreement agreement(const Shot& shot, const OutlinePose& pose, const OutlineMesh& mesh,
+                                    double inlier_px);
+
   /// Gauss-Newton on all photos: each is refined a little by itself; the similarity follows them, by the
   /// information that each photo has about its pose.
   [[nodiscard]] Fit refined(const Similarity& start, const Plan& plan);
@@ -126,6 +135,13 @@ Fit BlockRefinement::fit(const Similarity& similarity, const Plan& plan) {
         shots_[i].outline.match(drawing_, level, plan.reach_px, plan.inlier_px, residuals_);
   }
   return result;
+}
+
+Agreement BlockRefinement::agreement(const Shot& shot, const OutlinePose& pose, const OutlineMesh& mesh,
+                                     double inlier_px) {
+  const int last = shot.outline.levels() - 1;
+  drawing_.draw(mesh, pose, shot.outline.window(last));
+  return shot.outline.match(drawing_, last, most_noise_reach_px, inlier_px, residuals_);
 }
 
 std::optional<BlockRefinement::PoseDerivative> BlockRefinement::derivative(const Shot& shot,
@@ -228,19 +244,43 @@ double inliers(const Agreement& agreement) {
   return std::min(agreement.rim_inliers, agreement.image_inliers);
 }
 
-// Half of the photos fit at least so well.
-double median_inliers(const Fit& fit) {
-  std::vector<double> values;
-  for (const Agreement& agreement : fit.agreements) values.push_back(inliers(agreement));
-  std::sort(values.begin(), values.end());
-  return values[(values.size() - 1) / 2];
+// How rough each photo's outline is about the best fit, and how well the fits are with that allowed for.
+std::vector<OutlineFigures> allow_for_noise(std::vector<Fit>& fits, const std::vector<Shot>& shots,
+                                            const OutlineMesh& mesh, BlockRefinement& refinement) {
+  std::vector<OutlineFigures> figures(shots.size());
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const Shot& shot = shots[i];
+    const int last = shot.outline.levels() - 1;
+    const auto best = refinement.pose_in(shot, fits.front().block_from_world);
+    if (!best) continue;
+    const OutlineNoise noise = noise_about(mesh, *best, shot.outline, last);
+    figures[i] = outline_figures(mesh, *best, shot.outline, noise, shot.object_px);
+    for (Fit& fit : fits)
+      if (const auto pose = refinement.pose_in(shot, fit.block_from_world))
+        fit.agreements[i] = refinement.agreement(shot, *pose, mesh, inlier_px(noise));
+  }
+  return figures;
 }
 
-void judge(const std::vector<Fit>& fits, BlockAlignment& block) {
-  const double middle = median_inliers(fits.front());
-  if (middle < least_inliers) {
+// Most of the photos have to fit. That the outlines of several photos are alike by chance, all in one place
+// of the mesh, is the less likely the more there are: less of each has to fit than of a photo alone, and the
+// margin over the next place may be less, as each photo has noise of its own.
+void judge(const std::vector<Fit>& fits, const std::vector<OutlineFigures>& figures, BlockAlignment& block) {
+  const auto count = static_cast<double>(figures.size());
+  const double enough = least_inliers + (good_inliers - least_inliers) / std::sqrt(count);
+  int other = 0;
+  std::vector<std::string> doubts;
+  double margin = 0;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const double share = inliers(fits.front().agreements[i]);
+    other += share < least_inliers;
+    const OutlineDoubts of_photo = outline_doubts(share, figures[i], enough);
+    if (!of_photo.reasons.empty()) doubts.push_back(of_photo.reasons.front());
+    margin += (needed_margin(figures[i]) - least_margin) / count;
+  }
+  if (2 * other >= static_cast<int>(figures.size())) {
     block.reasons.push_back(fmt::format(
-        "half of the photos fit to {:.0f} % of the outline or less: is it another object?", 100 * middle));
+        "of {} of {} photos most of the outline does not fit: is it another object?", other, figures.size()));
     return;
   }
   block.verdict = Verdict::accept;
@@ -248,15 +288,15 @@ void judge(const std::vector<Fit>& fits, BlockAlignment& block) {
     block.verdict = Verdict::review;
     block.reasons.push_back(std::move(reason));
   };
-  if (middle < good_inliers)
-    doubt(fmt::format("half of the photos fit to {:.0f} % of the outline or less", 100 * middle));
-  if (fits.size() > 1 && fits[0].score() - fits[1].score() < least_margin)
+  if (2 * doubts.size() >= figures.size())
+    doubt(fmt::format("{} of {} photos do not fit well: {}", doubts.size(), figures.size(), doubts.front()));
+  if (fits.size() > 1 && fits[0].score() - fits[1].score() < least_margin + margin / std::sqrt(count))
     doubt(fmt::format(
         "the block turned by {:.0f} degrees fits nearly as well",
         angle_between(fits[0].block_from_world.rotation, fits[1].block_from_world.rotation) * degrees));
   if (block.reasons.empty())
-    block.reasons.push_back(fmt::format("{} photos fit together, in the middle to {:.1f} % of the outline",
-                                        fits[0].agreements.size(), 100 * middle));
+    block.reasons.push_back(
+        fmt::format("{} of {} photos fit together", figures.size() - doubts.size(), figures.size()));
 }
 
 Alignment photo_of_block(const Shot& shot, const UnitSphere& sphere, std::size_t index,
@@ -332,10 +372,13 @@ BlockAlignment align_block(const TriangleMesh& mesh, const std::vector<BlockPhot
     }
     return block;
   }
-  judge(fits, block);
+  const std::vector<OutlineFigures> figures = allow_for_noise(fits, shots, meshes.full, refinement);
+  judge(fits, figures, block);
   block.block_from_world = fits.front().block_from_world;
-  for (std::size_t i = 0; i < shots.size(); ++i)
+  for (std::size_t i = 0; i < shots.size(); ++i) {
     block.photos.push_back(photo_of_block(shots[i], sphere, i, fits, refinement, block));
+    block.photos.back().outline = figures[i];
+  }
   progress.update(1, "fitting the block");
   return block;
 }

@@ -70,7 +70,7 @@ RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start, const
     NormalEquations sum = normal_equations(pose, drawing.rim(), residuals, window.px_per_photo_px, kernel);
     add_priors(pose, lens, plan.free_principal_point, sum);
     if (first || agreement.closeness() > best.agreement.closeness()) {
-      best = {pose, agreement, sum.matrix, sum.chi_squared};
+      best = {pose, agreement, sum.matrix, 1, sum.chi_squared};
       first = false;
     }
     Eigen::MatrixXd matrix = directions.transpose() * sum.matrix * directions;

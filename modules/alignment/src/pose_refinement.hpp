@@ -47,6 +47,8 @@ struct RefinedPose {
   /// Inverse covariance of the free parameters about the pose, the others' rows being 0; the residuals' own
   /// spread is their noise. Zero where nothing could be matched.
   PoseMatrix information = PoseMatrix::Zero();
+  /// Errors over what `information` tells of them, where that is known: of simulated photos.
+  double spread = 1;
   double chi_squared = 0;  // of the residuals, robustly, for comparing fits with more and fewer parameters
 };
 

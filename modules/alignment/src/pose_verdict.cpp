@@ -53,6 +53,9 @@ std::optional<PoseCovariance> covariance_of(const RefinedPose& refined, const Le
         covariance(3, 3) / (s * s) + covariance(6, 6) / (p * p) - 2 * covariance(3, 6) / (s * p);
     result.sigma.focal_percent = 100 * std::sqrt(std::max(0.0, variance));
   }
+  for (double* deviation :
+       {&result.sigma.rotation_deg, &result.sigma.direction_deg, &result.sigma.focal_percent})
+    *deviation *= refined.spread;
   return result;
 }
 
@@ -74,6 +77,27 @@ double rough_px(const OutlineFigures& figures) {
 }
 
 }  // namespace
+
+OutlineDoubts outline_doubts(double inliers, const OutlineFigures& figures, double enough) {
+  OutlineDoubts doubts;
+  const bool gap_alone =
+      figures.largest_gap < most_gap && figures.fits > good_elsewhere * (1 - figures.largest_gap);
+  if (inliers < enough && !gap_alone)
+    doubts.reasons.push_back(fmt::format("{:.0f} % of the outline fits, the rest does not", 100 * inliers));
+  if (inliers < enough && gap_alone)
+    doubts.forgiven = fmt::format(
+        "all but one part of the outline fits ({:.0f} % of it): hidden, or something was taken along",
+        100 * figures.largest_gap);
+  if (figures.noise_px > most_noise_share * figures.object_px)
+    doubts.reasons.push_back(
+        fmt::format("the outline is off by {:.1f} pixels all along: too much for an object of {:.0f}",
+                    figures.noise_px, figures.object_px));
+  return doubts;
+}
+
+double needed_margin(const OutlineFigures& figures) {
+  return least_margin + margin_per_px * rough_px(figures);
+}
 
 std::optional<PoseSigma> pose_sigma(const RefinedPose& pose, const LensPrior& lens) {
   const std::optional<PoseCovariance> covariance = covariance_of(pose, lens);
@@ -103,14 +127,9 @@ PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior
     judgement.verdict = Verdict::review;
     judgement.reasons.push_back(std::move(reason));
   };
-  const bool gap_alone =
-      figures.largest_gap < most_gap && figures.fits > good_elsewhere * (1 - figures.largest_gap);
-  if (inliers < good_inliers && !gap_alone)
-    doubt(fmt::format("{:.0f} % of the outline fits, the rest does not", 100 * inliers));
-  if (figures.noise_px > most_noise_share * figures.object_px)
-    doubt(fmt::format("the outline is off by {:.1f} pixels all along: too much for an object of {:.0f}",
-                      figures.noise_px, figures.object_px));
-  const double margin = least_margin + margin_per_px * rough_px(figures);
+  const OutlineDoubts doubts = outline_doubts(inliers, figures, good_inliers);
+  for (const std::string& reason : doubts.reasons) doubt(reason);
+  const double margin = needed_margin(figures);
   while (judgement.rivals + 1 < poses.size() &&
          best.agreement.score() - poses[judgement.rivals + 1].agreement.score() < margin)
     ++judgement.rivals;
@@ -125,10 +144,7 @@ PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior
     doubt(fmt::format(
         "a pose {:.0f} degrees away fits nearly as well: a mirror twin, or a symmetry of the object",
         angle_between(best.pose.rotation, poses[1].pose.rotation) * degrees));
-  if (judgement.reasons.empty() && gap_alone && inliers < good_inliers)
-    judgement.reasons.push_back(fmt::format(
-        "all but one part of the outline fits ({:.0f} % of it): hidden, or something was taken along",
-        100 * figures.largest_gap));
+  if (judgement.reasons.empty() && !doubts.forgiven.empty()) judgement.reasons.push_back(doubts.forgiven);
   if (judgement.reasons.empty())
     judgement.reasons.push_back(
         fmt::format("{:.1f} % of the outline fits, to {:.2f} pixels", 100 * inliers, best.agreement.rms_px));

@@ -15,7 +15,7 @@
 #include "drape/base/error.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "image_stencil.hpp"
-#include "outline_misfit.hpp"
+#include "outline_figures.hpp"
 #include "photo_plane.hpp"
 #include "pose_search.hpp"
 #include "pose_verdict.hpp"
@@ -93,26 +93,6 @@ void rank_by_appearance(std::vector<RefinedPose>& poses, const PhotoEvidence& ev
   std::stable_sort(poses.begin(), poses.end(), [](const RefinedPose& a, const RefinedPose& b) {
     return a.agreement.score() > b.agreement.score();
   });
-}
-
-OutlineFigures figures_of(const RefinedPose& best, const SettledPoses& settled, const OutlineMesh& mesh,
-                          const StencilEvidence& evidence, const Image8& stencil) {
-  constexpr double bridge = 0.04;  // of the object
-  const int last = evidence.levels() - 1;
-  const double px = evidence.window(last).px_per_photo_px;
-  OutlineFigures figures;
-  figures.object_px = object_extent(stencil);
-  figures.noise_px = settled.noise.sigma_px / px;
-  figures.correlation_px = settled.noise.correlation_px / px;
-  figures.by_photo = settled.shaded;
-  OutlineDrawing drawing;
-  drawing.draw(mesh, best.pose, evidence.window(last));
-  const OutlineMisfit misfit =
-      outline_misfit(evidence.pieces(drawing, last, most_noise_reach_px, inlier_px(settled.noise)),
-                     std::max(4.0, bridge * figures.object_px * px));
-  figures.fits = misfit.fits;
-  figures.largest_gap = misfit.largest_gap;
-  return figures;
 }
 
 // The poses as cameras, the best first, with what is to be thought of them.
@@ -232,7 +212,9 @@ Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& eviden
     if (evidence.photo != nullptr) inside.emplace(PhotoInside{*evidence.photo, plane, mesh.colors});
     SettledPoses settled = settled_poses(poses, meshes.full, *stencil, settings.lens, inside, progress);
     poses = std::move(settled.poses);
-    figures = figures_of(poses.front(), settled, meshes.full, *stencil, evidence.stencil);
+    figures = outline_figures(meshes.full, poses.front().pose, *stencil, settled.noise,
+                              object_extent(evidence.stencil));
+    figures.by_photo = settled.shaded;
   }
   Alignment alignment = judged(poses, figures, settings, evidence, mesh, sphere, plane, options);
   if (const auto* colors = dynamic_cast<const ColorEvidence*>(outline.get());

@@ -17,7 +17,7 @@ class FeatureTable {
   /// `truth` is right, wrong or absent; `error_deg` is about the viewing ray, 180 where the object is absent.
   void add(const std::string& cell, const std::string& model, int index, const std::string& truth,
            double error_deg, alignment::Verdict verdict,
-           const std::optional<alignment::OutlineFigures>& outline);
+           const std::optional<alignment::OutlineFigures>& outline, double sigma_deg);
 
  private:
   std::ofstream stream_;

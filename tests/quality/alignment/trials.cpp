@@ -65,6 +65,7 @@ Trial align_shot(const Model& model, const Cell& cell, const Shot& shot,
   trial.reasons = found.reasons;
   trial.confidence = margin(found);
   trial.outline = found.outline;
+  if (found.sigma) trial.sigma_deg = found.sigma->rotation_deg;
   if (found.candidates.empty()) {
     trial.rotation_deg = trial.about_ray_deg = 180;
     return trial;

@@ -40,6 +40,7 @@ struct Trial {
   double cpu_seconds = 0;
   std::vector<std::string> reasons;
   std::optional<alignment::OutlineFigures> outline;
+  double sigma_deg = 0;                      // of rotation, as the alignment tells it
   std::optional<double> best_candidate_deg;  // of the poses listed: the least error about the ray
 
   /// What the verdict should say of a right pose: of a body of rotation that it is free about the axis.

@@ -112,7 +112,7 @@ std::vector<Judged> measure_negatives(const std::vector<Model>& models, int per_
       const alignment::Alignment found = alignment::align_photo(model.scanned, evidence, options, 1, {});
       all.push_back({Judged::Truth::absent, found.verdict, margin(found)});
       features.add("negatives", model.name + " in " + negative.name, 0, "absent", 180, found.verdict,
-                   found.outline);
+                   found.outline, found.sigma ? found.sigma->rotation_deg : 0);
       if (all.size() % told_every == 0) {
         fmt::print("  negatives so far: {} of {} accepted\n", accepted, all.size());
         std::fflush(stdout);

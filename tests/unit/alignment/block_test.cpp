@@ -95,6 +95,18 @@ TEST(Block, AllPhotosTogetherGiveTheSimilarity) {
   }
 }
 
+TEST(Block, RoughOutlinesAreJudgedByTheirNoise) {
+  const TriangleMesh mesh = knobbed_brick();
+  Photos photos(mesh, three_views());
+  for (Image8& stencil : photos.stencils) stencil = wavy(stencil, 5);
+  const BlockAlignment found = align_block(mesh, photos.block(), {}, 1, {});
+  EXPECT_EQ(found.verdict, Verdict::accept) << found.reasons.front();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(rotation_between_deg(found.photos[i].camera, photos.cameras[i]), 2);
+    EXPECT_GT(found.photos[i].outline.value().noise_px, 0.5);
+  }
+}
+
 TEST(Block, TheSameForAnyNumberOfThreads) {
   const TriangleMesh mesh = knobbed_brick();
   const Photos photos(mesh, three_views());

@@ -1,6 +1,7 @@
 #include "bodies.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -49,6 +50,17 @@ Camera view_of(const Eigen::Vector3d& euler_deg, double unit_px, double cx, doub
 
 Image8 stencil_of(const TriangleMesh& mesh, const Camera& camera) {
   return rendering::Renderer(mesh).stencil(camera);
+}
+
+Image8 wavy(const Image8& stencil, double amplitude) {
+  Image8 result(stencil.width(), stencil.height(), 1, stencil::background);
+  for (int y = 0; y < stencil.height(); ++y)
+    for (int x = 0; x < stencil.width(); ++x) {
+      const double shift = amplitude * std::sin(y / 4.0) * std::sin(x / 23.0 + 1);
+      const int from = std::clamp(x + static_cast<int>(std::lround(shift)), 0, stencil.width() - 1);
+      result.at(x, y) = stencil.at(from, y);
+    }
+  return result;
 }
 
 double rotation_between_deg(const Camera& a, const Camera& b) {

@@ -20,6 +20,9 @@ namespace drape::alignment {
 
 [[nodiscard]] Image8 stencil_of(const TriangleMesh& mesh, const Camera& camera);
 
+/// The outline of `stencil` waves by up to `amplitude` pixels along x.
+[[nodiscard]] Image8 wavy(const Image8& stencil, double amplitude);
+
 [[nodiscard]] double rotation_between_deg(const Camera& a, const Camera& b);
 
 }  // namespace drape::alignment

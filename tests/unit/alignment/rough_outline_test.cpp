@@ -18,18 +18,6 @@
 namespace drape::alignment {
 namespace {
 
-// The outline of `stencil` waves by up to `amplitude` pixels along x.
-Image8 wavy(const Image8& stencil, double amplitude) {
-  Image8 result(stencil.width(), stencil.height(), 1, stencil::background);
-  for (int y = 0; y < stencil.height(); ++y)
-    for (int x = 0; x < stencil.width(); ++x) {
-      const double shift = amplitude * std::sin(y / 4.0) * std::sin(x / 23.0 + 1);
-      const int from = std::clamp(x + static_cast<int>(std::lround(shift)), 0, stencil.width() - 1);
-      result.at(x, y) = stencil.at(from, y);
-    }
-  return result;
-}
-
 // A lamp from above on the left.
 Image8 lit(const TriangleMesh& mesh, const Camera& camera) {
   const rendering::DepthMap seen = rendering::Renderer(mesh).depth_map(camera);

@@ -49,7 +49,8 @@ TEST(Silhouette, FindsAnyPoseToATenthOfADegree) {
     EXPECT_NEAR(found.camera.K(0, 0), truth.K(0, 0), 0.02 * truth.K(0, 0));
     EXPECT_EQ(found.verdict, Verdict::accept) << found.reasons.front();
     ASSERT_TRUE(found.sigma.has_value());
-    EXPECT_LT(found.sigma->rotation_deg, 1);
+    EXPECT_LT(found.sigma->rotation_deg, 0.2);
+    EXPECT_LT(rotation_between_deg(found.camera, truth), 4 * found.sigma->rotation_deg);
     EXPECT_LT(found.boundary_error_px.value(), 0.6);
   }
 }
