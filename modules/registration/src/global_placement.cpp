@@ -32,6 +32,7 @@ constexpr double slack_of_refined = 1.06;
 // simulated, have up to 1.1 %, mirror-like objects laid on their mirror image 2.8 %.
 constexpr double most_contradiction_alone = 0.02;  // of the firm overlap
 constexpr double most_contradiction_of_smooth_alone = 0.012;
+constexpr double doubtful_contradiction_of_smooth = 0.008;
 
 struct Pair {
   std::size_t source;
@@ -261,7 +262,10 @@ std::string objection(std::size_t which, const std::vector<PlacedScan>& placed,
       closest = pose.against;
     }
   }
-  if (bearing_out.size() == 1 && bearing_out[0].relative_contradiction() > most_contradiction_alone)
+  // Single returns that are missing have other causes too: the smoothed views must agree that something is
+  // wrong.
+  if (bearing_out.size() == 1 && bearing_out[0].relative_contradiction() > most_contradiction_alone &&
+      bearing_out[0].contradiction_of_smooth > doubtful_contradiction_of_smooth)
     return fmt::format(
         "only one scan bears it out, and {:.1f} % of one lies where the other looked through, {:.1f} % where "
         "it "
