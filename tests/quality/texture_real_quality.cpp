@@ -1,7 +1,7 @@
 // How photos draped by their true cameras look again: one photo from its own camera (PSNR, shares of the
 // surface, time), and many photos of the dino on its visual hull from the camera of one that was left out.
-// Usage: texture_real_quality [save=FOLDER] [left_out=4] [option=value ...], options as in the `texture`
-// section.
+// Usage: texture_real_quality [save=FOLDER] [lmo=no] [left_out=4] [option=value ...], options as in the
+// `texture` section.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
@@ -205,7 +205,8 @@ double pixels_in(const Image8& mask) {
 }
 
 // A hull carved from every second photo, painted by the others but one, which is then drawn.
-void measure_dino(int left_out, const texturing::TextureOptions& options, const std::string& folder) {
+void measure_dino(int left_out, texturing::TextureOptions options, const std::string& folder) {
+  options.stencil_erode_px += 3;  // its stencils are larger than it by that much: see dino_stencil()
   const std::vector<lab::PosedPhoto> photos = lab::posed_photos("dino");
   if (photos.empty()) return;
   std::vector<lab::Outline> outlines;
@@ -253,12 +254,14 @@ void run(test::ProgramArguments& arguments) {
   texturing::TextureOptions options;
   std::string folder;
   if (const auto given = arguments.text("save")) folder = *given;
+  const bool lmo = arguments.text("lmo").value_or("yes") != "no";
   const int left_out = arguments.integer("left_out").value_or(4);
   arguments.read(options);
   arguments.finish();
   const auto poses = nlohmann::json::parse(read_file(test::data("photos/poses.json")));
   for (const auto& item : poses["items"])
-    if (item["image"].get<std::string>().find("lmo") != std::string::npos) measure(item, options, folder);
+    if (lmo && item["image"].get<std::string>().find("lmo") != std::string::npos)
+      measure(item, options, folder);
   if (left_out > 0) measure_dino(left_out, options, folder);
 }
 
