@@ -25,6 +25,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 constexpr double agreement_rad = 12 / degrees;  // of two photos' candidates: no more, and they contradict
 constexpr double distinct_rad = 10 / degrees;
 constexpr std::size_t kept_after_glance = 6;
+constexpr double smooth_share = 0.006;  // of the object: an outline's noise with which less of it has to fit
 constexpr int coarse_faces = 1500;
 constexpr int middle_faces = 8000;
 
@@ -274,7 +275,9 @@ void judge(const std::vector<Fit>& fits, const std::vector<OutlineFigures>& figu
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const double share = inliers(fits.front().agreements[i]);
     other += share < least_inliers;
-    const OutlineDoubts of_photo = outline_doubts(share, figures[i], enough);
+    // What is off by more all along would let much of any outline fit.
+    const bool smooth = figures[i].noise_px < smooth_share * figures[i].object_px;
+    const OutlineDoubts of_photo = outline_doubts(share, figures[i], smooth ? enough : good_inliers);
     if (!of_photo.reasons.empty()) doubts.push_back(of_photo.reasons.front());
     margin += (needed_margin(figures[i]) - least_margin) / count;
   }
