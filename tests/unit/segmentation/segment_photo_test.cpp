@@ -206,8 +206,10 @@ TEST(Background, APhotoOfTheEmptySceneShowsTheObjectInClutter) {
   Rng rng(3);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x) {
-      const bool stripe = (x / 8 + y / 8) % 2 == 0;
-      const Rgb color = stripe ? Rgb{40, 160, 70} : Rgb{220, 210, 60};
+      const int tile = 20 * (y / 8) + x / 8;
+      const Rgb color = {static_cast<std::uint8_t>(60 + 37 * tile % 160),
+                         static_cast<std::uint8_t>(60 + 83 * tile % 160),
+                         static_cast<std::uint8_t>(60 + 131 * tile % 160)};
       paint(scene, x, y, color);
       if (s.truth.at(x, y) == stencil::object) continue;
       // 12 % darker than without the object, and noisier
