@@ -206,10 +206,9 @@ TEST(Background, APhotoOfTheEmptySceneShowsTheObjectInClutter) {
   Rng rng(3);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x) {
-      const int tile = 20 * (y / 8) + x / 8;
-      const Rgb color = {static_cast<std::uint8_t>(60 + 37 * tile % 160),
-                         static_cast<std::uint8_t>(60 + 83 * tile % 160),
-                         static_cast<std::uint8_t>(60 + 131 * tile % 160)};
+      constexpr std::array<Rgb, 5> tiles = {
+          Rgb{40, 160, 70}, {220, 210, 60}, {60, 90, 220}, {230, 120, 200}, {90, 220, 220}};
+      const Rgb color = tiles[static_cast<std::size_t>(3 * (x / 8) + y / 8) % tiles.size()];
       paint(scene, x, y, color);
       if (s.truth.at(x, y) == stencil::object) continue;
       // 12 % darker than without the object, and noisier
