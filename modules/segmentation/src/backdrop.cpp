@@ -267,7 +267,6 @@ float seam_residual(const Sheet& a, const Sheet& b, const ImageF& lab, int x, in
 }
 
 Backdrop backdrop_of(const std::vector<Sheet>& sheets, const ImageF& lab) {
-  Backdrop backdrop;
   ImageF difference(lab.width(), lab.height(), 1);
   for (int y = 0; y < lab.height(); ++y)
     for (int x = 0; x < lab.width(); ++x) {
@@ -286,7 +285,9 @@ Backdrop backdrop_of(const std::vector<Sheet>& sheets, const ImageF& lab) {
             difference.at(x, y) =
                 std::min(difference.at(x, y), seam_residual(sheets[a], sheets[b], lab, x, y) /
                                                   std::max(sheets[a].limit, sheets[b].limit));
-  return in_units_of(1, std::move(difference));
+  Backdrop backdrop = in_units_of(1, std::move(difference));
+  backdrop.sheets = sheets.size();
+  return backdrop;
 }
 
 }  // namespace
@@ -297,7 +298,7 @@ Backdrop smooth_backdrop(const ImageF& lab) {
   float limit = least_difference;
   for (int round = 0; round < growing_rounds; ++round) {
     const Surface surface = robust_fit(lab, used);
-    limit = smooth_limit_of(residuals(surface, lab, used));
+    limit = limit_of(residuals(surface, lab, used));
     for (int y = 0; y < lab.height(); ++y)
       for (int x = 0; x < lab.width(); ++x) difference.at(x, y) = residual(surface, lab, x, y);
     used = grown_from_border(difference, limit);

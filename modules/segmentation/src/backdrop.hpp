@@ -8,13 +8,15 @@ namespace drape::segmentation {
 struct Backdrop {
   ImageF difference;        // per pixel: how far from the backdrop, 1 where object and backdrop part
   double border_share = 0;  // of the picture's border that is backdrop, 0..1
+  std::size_t sheets = 1;   // smooth parts that it consists of
 };
 
 /// A sheet of paper, a cloth or a black room, evenly lit or falling off: the colours of the picture's border
 /// are fitted by a quadratic of the position, then those of all that hangs together with it. Where that
 /// leaves part of the border open, up to three such sheets (a wall, a floor, a table), each grown from the
 /// commonest colour of what is open; where two meet, mixtures of both are backdrop. Robust: an object or a
-/// clamp may reach over the border. A border of many colours gives a small border_share.
+/// clamp may reach over the border. A border of many colours mostly gives a small
+/// border_share.
 [[nodiscard]] Backdrop smooth_backdrop(const ImageF& lab);
 
 /// The same scene without the object, of the same size, by the same camera; its exposure may differ.

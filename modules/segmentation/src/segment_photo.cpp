@@ -25,6 +25,8 @@ constexpr double least_segment_difference = 3;  // Lab; neighbours of nearly one
 // a plausible size.
 constexpr double least_backdrop_share = 0.9;
 constexpr double least_object_share = 0.003;
+// A table and a wall make a backdrop only where one thing stands before them.
+constexpr double least_share_of_one = 0.85;
 constexpr double most_object_share = 0.75;
 
 // The photo at working size, and what was found on it.
@@ -47,6 +49,20 @@ bool unites_segments(Method method) {
          method == Method::em;
 }
 
+// Of the pixels that are no backdrop, the share of those that hang together most.
+double share_of_largest(const Backdrop& backdrop) {
+  Image8 object(backdrop.difference.width(), backdrop.difference.height(), 1, stencil::background);
+  double all = 0;
+  for (std::size_t i = 0; i < object.data().size(); ++i)
+    if (backdrop.difference.data()[i] > 1) {
+      object.data()[i] = stencil::object;
+      all += 1;
+    }
+  const Image8 largest = without_islands(object, 1, std::nullopt);
+  const auto kept = std::count(largest.data().begin(), largest.data().end(), stencil::object);
+  return all > 0 ? static_cast<double>(kept) / all : 0;
+}
+
 // The method that Method::automatic stands for: the backdrop if there is one, else GrabCut.
 Method found_method(const ImageF& lab, const ImageF& empty_scene, const Hints& hints) {
   if (!empty_scene.empty()) return Method::background;
@@ -56,7 +72,9 @@ Method found_method(const ImageF& lab, const ImageF& empty_scene, const Hints& h
                                      [](float difference) { return difference > 1; });
   const double share = static_cast<double>(objects) / static_cast<double>(backdrop.difference.data().size());
   const bool plausible = share > least_object_share && share < most_object_share;
-  return plausible && backdrop.border_share > least_backdrop_share ? Method::background : Method::grabcut;
+  const bool one_thing = backdrop.sheets == 1 || share_of_largest(backdrop) > least_share_of_one;
+  return plausible && one_thing && backdrop.border_share > least_backdrop_share ? Method::background
+                                                                                : Method::grabcut;
 }
 
 std::vector<std::uint8_t> picked_segments(const Reduced& r, const SegmentOptions& options) {

@@ -117,21 +117,12 @@ TEST(Backdrop, OfAWallAndAFloorIsBoth) {
   for (int y = 40; y < 75; ++y)
     for (int x = 50; x < 70; ++x) lab.at(x, y, 2) = 70;
   const Backdrop found = smooth_backdrop(lab);
+  EXPECT_EQ(found.sheets, 2U);
   EXPECT_GT(found.border_share, 0.97);
   EXPECT_GT(found.difference.at(60, 50), 1);
   EXPECT_GT(found.difference.at(60, 65), 1);
   EXPECT_LT(found.difference.at(20, 58), 1);
   EXPECT_LT(found.difference.at(20, 62), 1);
-}
-
-TEST(Backdrop, ABorderOfManyColorsIsNone) {
-  ImageF lab = falling_off(true);
-  for (int y = 0; y < 90; ++y)
-    for (int x = 0; x < 120; ++x) {
-      lab.at(x, y, 1) = static_cast<float>(40 * ((x / 9 + y / 9) % 2));
-      lab.at(x, y, 2) = static_cast<float>(25 * ((x / 9 * 7 + y / 9 * 3) % 5));
-    }
-  EXPECT_LT(smooth_backdrop(lab).border_share, 0.9);
 }
 
 }  // namespace
