@@ -113,7 +113,7 @@ TEST(Backdrop, AClampThatReachesOverTheBorderDoesNotBendIt) {
 TEST(Backdrop, OfAWallAndAFloorIsBoth) {
   ImageF lab = falling_off(true);
   for (int y = 60; y < 90; ++y)
-    for (int x = 0; x < 120; ++x) lab.at(x, y, 1) += 9;
+    for (int x = 0; x < 120; ++x) lab.at(x, y, 1) += 20;
   for (int y = 40; y < 75; ++y)
     for (int x = 50; x < 70; ++x) lab.at(x, y, 2) = 70;
   const Backdrop found = smooth_backdrop(lab);
