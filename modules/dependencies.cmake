@@ -15,6 +15,7 @@ find_package(nanoflann REQUIRED)
 find_package(meshoptimizer REQUIRED)
 pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(PUGIXML REQUIRED IMPORTED_TARGET pugixml)
+pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 
 # CGAL is header-only here; its own CMake package changes global flags, so only its libraries are taken.

@@ -124,11 +124,14 @@ Opened opened(const std::filesystem::path& file) {
 }
 
 void tell_profile(const std::filesystem::path& file, const PictureHeader& header, ProfileKind kind) {
-  const std::string& packed = header.packed_icc_name;
+  const std::string& damaged = header.damaged_icc_name;
   if (kind == ProfileKind::applied) log::info("{}: its colour profile is converted to sRGB", file.string());
-  if (kind == ProfileKind::not_applied || (!packed.empty() && packed.find("sRGB") == std::string::npos))
-    log::warn("{}: its colour profile{} is not applied: convert the photo to sRGB if its colours matter",
-              file.string(), packed.empty() ? "" : " " + shown(packed));
+  if (!damaged.empty())
+    log::warn("{}: its colour profile {} is damaged and not applied: its colours are taken for sRGB",
+              file.string(), shown(damaged));
+  else if (kind == ProfileKind::not_applied)
+    log::warn("{}: its colour profile is not applied: convert the photo to sRGB if its colours matter",
+              file.string());
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "picture_header.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "drape/base/error.hpp"
@@ -146,6 +149,40 @@ std::uint32_t crc32(std::string_view bytes) {
   return crc ^ 0xFFFFFFFFU;
 }
 
+// A zlib stream, if it is whole and holds no more than a profile may.
+std::optional<std::string> unpacked(std::string_view packed) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 24;
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) return std::nullopt;
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, &inflateEnd);
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::string bytes;
+  std::array<char, 65536> piece{};
+  for (int status = Z_OK; status != Z_STREAM_END;) {
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(piece.size());
+    status = inflate(&stream, Z_NO_FLUSH);
+    const std::size_t made = piece.size() - stream.avail_out;
+    if ((status != Z_OK && status != Z_STREAM_END) || (made == 0 && status == Z_OK)) return std::nullopt;
+    bytes.append(piece.data(), made);
+    if (bytes.size() > most_bytes) return std::nullopt;
+  }
+  return bytes;
+}
+
+// A name of up to 79 letters, its end, 0 for deflate, the packed profile (PNG, section 11.3.3.3).
+void read_png_profile(std::string_view data, PictureHeader& header) {
+  const std::size_t name_end = std::min<std::size_t>(data.find('\0'), 80);
+  auto profile = name_end + 2 < data.size() && data[name_end] == '\0' && data[name_end + 1] == '\0'
+                     ? unpacked(data.substr(name_end + 2))
+                     : std::nullopt;
+  if (profile && !profile->empty())
+    header.icc = std::move(*profile);
+  else
+    header.damaged_icc_name = "\"" + std::string(data.substr(0, name_end)) + "\"";
+}
+
 PictureHeader png_header(const std::string& file, std::string_view bytes) {
   PictureHeader header{PictureFormat::png, 0, 0, {}, {}, {}};
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
@@ -161,7 +198,7 @@ PictureHeader png_header(const std::string& file, std::string_view bytes) {
       header.height = big(data, 4, 4);
     }
     if (type == "eXIf"sv) header.exif = data;
-    if (type == "iCCP"sv) header.packed_icc_name = data.substr(0, std::min<std::size_t>(data.find('\0'), 79));
+    if (type == "iCCP"sv) read_png_profile(data, header);
     if (type == "IEND"sv) return header;
     at += 12 + length;
   }

@@ -13,9 +13,9 @@ struct PictureHeader {
   PictureFormat format = PictureFormat::png;
   std::uint64_t width = 0;  // as stored, before any turning
   std::uint64_t height = 0;
-  std::string_view exif;        // the TIFF structure with the EXIF tags; empty if there is none
-  std::string icc;              // the colour profile; empty if there is none
-  std::string packed_icc_name;  // of a PNG's profile, which is compressed and is not unpacked
+  std::string_view exif;         // the TIFF structure with the EXIF tags; empty if there is none
+  std::string icc;               // the colour profile; empty if there is none
+  std::string damaged_icc_name;  // of a PNG's profile that could not be unpacked
 };
 
 /// Reads the header and checks that the file is whole where its structure tells (JPEG: ends with its end

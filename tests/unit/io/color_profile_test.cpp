@@ -145,6 +145,27 @@ TEST(ColorProfile, InAJpegOfSeveralSegments) {
   EXPECT_NE(io::read_photo(folder / "x.jpg").rgb, io::read_photo(folder / "y.jpg").rgb);
 }
 
+io::Photo png_photo_with(const Image8& image, const std::string& profile_chunk) {
+  const std::string png = io::encode_image(image, "png");
+  const test::ScratchFolder folder;
+  write_file(folder / "x.png", png.substr(0, 33) + profile_chunk + png.substr(33));
+  return io::read_photo(folder / "x.png");
+}
+
+TEST(ColorProfile, InAPng) {
+  const Image8 image = random_image();
+  const std::string profile = icc_profile(display_p3_primaries(), srgb_curve());
+  const std::string name("Display P3\0\0", 12);
+  const std::string packed = test::zlib_stored(profile);
+  EXPECT_EQ(png_photo_with(image, test::png_chunk("iCCP", name + packed)).rgb,
+            photo_with(image, profile).rgb);
+  EXPECT_NE(photo_with(image, profile).rgb, image);
+  // Half of it, none of it, no end of the name, another kind of packing: as without.
+  for (const std::string& bad : {name + packed.substr(0, packed.size() / 2), name, std::string("Display"),
+                                 std::string("Display P3\0\x01", 12) + packed, std::string()})
+    EXPECT_EQ(png_photo_with(image, test::png_chunk("iCCP", bad)).rgb, image);
+}
+
 TEST(ColorProfile, DamagedProfilesNeverHurt) {
   const Image8 image(2, 2, 3, 100);
   const std::string good = icc_profile(display_p3_primaries(), gamma_curve(2.2));
