@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "distance_field.hpp"
+#include "drape/rendering/depth_raster.hpp"
 
 namespace drape::texturing {
 namespace {
@@ -112,7 +113,7 @@ double farthest_moved(const std::vector<RimPoint>& rim, const Camera& from, cons
 
 }  // namespace
 
-OutlinePose pose_on_outline(rendering::Renderer& renderer, const Camera& camera, const Image8& stencil,
+OutlinePose pose_on_outline(const TriangleMesh& mesh, const Camera& camera, const Image8& stencil,
                             const Eigen::Vector3d& middle, double most_px) {
   OutlinePose out{camera};
   if (stencil.empty() || most_px <= 0) return out;
@@ -130,7 +131,7 @@ OutlinePose pose_on_outline(rendering::Renderer& renderer, const Camera& camera,
   std::vector<RimPoint> first_rim;
   rendering::DepthMap best_map;
   for (int drawing = 0; drawing < most_drawings; ++drawing) {
-    rendering::DepthMap map = renderer.depth_map(now);
+    rendering::DepthMap map = rendering::rastered_depth(mesh, now);
     const std::vector<RimPoint> rim = rim_of(map.depth, now, outline);
     if (rim.size() < least_points) return out;
     const double miss = mean_miss(rim, now, photo, most);

@@ -6,6 +6,7 @@
 
 #include "drape/geometry/camera.hpp"
 #include "drape/geometry/image.hpp"
+#include "drape/geometry/triangle_mesh.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "pose_step.hpp"
 
@@ -32,7 +33,7 @@ struct OutlinePose {
 /// rim is drawn anew after each step. `middle`: of the mesh. Where outlines agree to a fraction of a pixel
 /// already, where that does not bring them closer, or where it would move the outline by more than `most_px`,
 /// the camera stays as it was.
-[[nodiscard]] OutlinePose pose_on_outline(rendering::Renderer& renderer, const Camera& camera,
+[[nodiscard]] OutlinePose pose_on_outline(const TriangleMesh& mesh, const Camera& camera,
                                           const Image8& stencil, const Eigen::Vector3d& middle,
                                           double most_px);
 

@@ -6,7 +6,7 @@
 
 #include "drape/base/parallel.hpp"
 #include "drape/geometry/bounding_box.hpp"
-#include "drape/rendering/renderer.hpp"
+#include "drape/rendering/depth_raster.hpp"
 #include "outline_pose.hpp"
 #include "photo_agreement.hpp"
 
@@ -15,7 +15,6 @@ namespace {
 
 constexpr double least_tolerance = 1e-5;  // of the mesh's extent
 constexpr double most_pose_erosion_px = 6;
-constexpr std::size_t views_per_renderer = 4;
 constexpr double same_depth_px = 0.1;  // cameras this close see the same depth
 
 bool same_surface(const TriangleMesh& a, const TriangleMesh& b) {
@@ -55,12 +54,10 @@ class Poser {
         views_(views),
         options_(options),
         box_(bounding_box(full.vertices)),
-        full_renderer_(full) {
-    if (!same_surface(simplified, full)) simplified_renderer_.emplace(simplified);
-  }
+        same_(same_surface(simplified, full)) {}
 
-  Posed posed(std::size_t view) {
-    Posed p{view, pose_on_outline(full_renderer_, views_[view].camera, views_[view].stencil, box_.center(),
+  [[nodiscard]] Posed posed(std::size_t view) const {
+    Posed p{view, pose_on_outline(full_, views_[view].camera, views_[view].stencil, box_.center(),
                                   options_.pose_max_px)};
     p.moved_px = p.pose.moved_px;
     look(p);
@@ -68,14 +65,14 @@ class Poser {
   }
 
   /// What the camera sees, as it is now.
-  void look(Posed& p) {
+  void look(Posed& p) const {
     const Camera camera = depth_camera(p.pose.camera);
-    rendering::DepthMap map = p.pose.map ? std::move(*p.pose.map) : full_renderer_.depth_map(camera);
+    rendering::DepthMap map = p.pose.map ? std::move(*p.pose.map) : rendering::rastered_depth(full_, camera);
     p.pose.map.reset();
     p.tolerance = least_tolerance * box_.diagonal().norm();
-    if (simplified_renderer_)
-      p.tolerance = std::max(
-          p.tolerance, surface_deviation(simplified_renderer_->depth_map(camera), simplified_, map, camera));
+    if (!same_)
+      p.tolerance = std::max(p.tolerance, surface_deviation(rendering::rastered_depth(simplified_, camera),
+                                                            simplified_, map, camera));
     p.depth = std::move(map.depth);
   }
 
@@ -85,26 +82,22 @@ class Poser {
   std::span<const TextureView> views_;
   const TextureOptions& options_;
   Eigen::AlignedBox3d box_;
-  rendering::Renderer full_renderer_;
-  std::optional<rendering::Renderer> simplified_renderer_;
+  bool same_;
 };
 
 // The photos together; cameras that move are drawn anew.
-void agree(const TriangleMesh& simplified, const TriangleMesh& full, std::span<const TextureView> views,
+void agree(const Poser& poser, const TriangleMesh& simplified, std::span<const TextureView> views,
            const TextureOptions& options, std::vector<Posed>& posed, const Progress& progress) {
   std::vector<AgreementView> together;
   for (const Posed& p : posed)
     together.push_back({views[p.view].rgb, views[p.view].stencil, p.pose.camera, p.depth, p.pose.hold});
   const AgreeingCameras agreeing = agreeing_cameras(simplified, together, options.pose_max_px, progress);
-  std::optional<Poser> poser;
   for (std::size_t i = 0; i < posed.size(); ++i) {
     if (!(agreeing.moved_px[i] > 0)) continue;
     posed[i].pose.camera = agreeing.cameras[i];
     posed[i].agreed_px = agreeing.moved_px[i];
     posed[i].moved_px = std::max(posed[i].moved_px, agreeing.moved_px[i]);
-    if (agreeing.moved_px[i] <= same_depth_px) continue;
-    if (!poser) poser.emplace(simplified, full, views, options);
-    poser->look(posed[i]);
+    if (agreeing.moved_px[i] > same_depth_px) poser.look(posed[i]);
   }
 }
 
@@ -137,15 +130,18 @@ Sights sights_of(const TriangleMesh& simplified, const TriangleMesh& full, std::
   if (out.views.empty()) return out;
   progress.update(0, "drawing what the photos see");
   std::vector<Posed> posed(out.views.size());
-  // A renderer is worth a few views, and each works alone.
-  parallel_for(posed.size(), views_per_renderer, [&](std::size_t begin, std::size_t end) {
-    Poser own(simplified, full, views, options);
-    for (std::size_t i = begin; i < end; ++i) posed[i] = own.posed(out.views[i]);
+  const Poser poser(simplified, full, views, options);
+  // One thread makes ready for rays meanwhile.
+  parallel_for(posed.size() + 1, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (i == 0)
+        out.full = std::make_unique<RayCaster>(full);
+      else
+        posed[i - 1] = poser.posed(out.views[i - 1]);
   });
   if (posed.size() > 1 && options.pose_max_px > 0)
-    agree(simplified, full, views, options, posed, progress.part(0.6, 0.8));
+    agree(poser, simplified, views, options, posed, progress.part(0.6, 0.8));
   progress.update(0.8, "laying the outlines on each other");
-  out.full = std::make_unique<RayCaster>(full);
   std::vector<std::optional<PhotoSight>> sights(posed.size());
   out.warps_px.resize(posed.size());
   parallel_for(posed.size(), 1, [&](std::size_t begin, std::size_t end) {

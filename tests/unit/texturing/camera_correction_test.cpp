@@ -57,15 +57,15 @@ TEST(OutlinePose, FindsTheCameraThatTheStencilWasDrawnBy) {
   const Camera off = turned(camera, {0.4, 0.3, 1}, 1.2, 1.01);
   rendering::Renderer renderer(mesh);
   const Image8 stencil = renderer.stencil(camera);
-  const OutlinePose found = pose_on_outline(renderer, off, stencil, Eigen::Vector3d::Zero(), 12);
+  const OutlinePose found = pose_on_outline(mesh, off, stencil, Eigen::Vector3d::Zero(), 12);
   EXPECT_GT(shift_px(mesh, camera, off), 1);
   EXPECT_LT(shift_px(mesh, camera, found.camera), 0.35);
   EXPECT_GT(found.moved_px, 0.5);
   // Bounded, switched off, and quiet where nothing is wrong.
-  EXPECT_EQ(pose_on_outline(renderer, off, stencil, Eigen::Vector3d::Zero(), 0.5).moved_px, 0);
-  EXPECT_EQ(pose_on_outline(renderer, off, stencil, Eigen::Vector3d::Zero(), 0).moved_px, 0);
-  EXPECT_EQ(pose_on_outline(renderer, camera, stencil, Eigen::Vector3d::Zero(), 12).moved_px, 0);
-  EXPECT_EQ(pose_on_outline(renderer, off, {}, Eigen::Vector3d::Zero(), 12).moved_px, 0);
+  EXPECT_EQ(pose_on_outline(mesh, off, stencil, Eigen::Vector3d::Zero(), 0.5).moved_px, 0);
+  EXPECT_EQ(pose_on_outline(mesh, off, stencil, Eigen::Vector3d::Zero(), 0).moved_px, 0);
+  EXPECT_EQ(pose_on_outline(mesh, camera, stencil, Eigen::Vector3d::Zero(), 12).moved_px, 0);
+  EXPECT_EQ(pose_on_outline(mesh, off, {}, Eigen::Vector3d::Zero(), 12).moved_px, 0);
 }
 
 // A sphere's outline does not tell how it is turned; its paint does.
