@@ -37,7 +37,7 @@ std::uint8_t byte_from_linear(float value) {
       t.push_back(static_cast<std::uint8_t>(std::lround(255.F * stored(static_cast<float>(i) / steps))));
     return t;
   }();
-  return table[static_cast<std::size_t>(std::lround(steps * std::clamp(value, 0.F, 1.F)))];
+  return table[static_cast<std::size_t>(steps * std::clamp(value, 0.F, 1.F) + 0.5F)];
 }
 
 Eigen::Vector3f linear_from_stored(const Eigen::Vector3f& value) {

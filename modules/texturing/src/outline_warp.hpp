@@ -19,6 +19,7 @@ class OutlineWarp {
   [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector2d& pixel) const {
     return controls_.empty() ? pixel : Eigen::Vector2d(pixel + shift_at(pixel));
   }
+  [[nodiscard]] bool moves() const { return !controls_.empty(); }
   [[nodiscard]] Eigen::Vector2d shift_at(const Eigen::Vector2d& pixel) const;
 
  private:

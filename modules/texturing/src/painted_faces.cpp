@@ -53,12 +53,15 @@ class Looker {
   std::span<const PhotoSight> sights_;
 };
 
-double projected_length(const PhotoSight& sight, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Camera::Projected pa = sight.camera().project(a);
-  const Camera::Projected pb = sight.camera().project(b);
+// In pixels; infinite if an end is behind the camera.
+double length_between(const PhotoSight& sight, const Camera::Projected& a, const Camera::Projected& b) {
   const bool perspective = sight.camera().projection == Camera::Projection::perspective;
-  if (perspective && !(pa.depth > 0 && pb.depth > 0)) return std::numeric_limits<double>::infinity();
-  return (pb.pixel - pa.pixel).norm();
+  if (perspective && !(a.depth > 0 && b.depth > 0)) return std::numeric_limits<double>::infinity();
+  return (b.pixel - a.pixel).norm();
+}
+
+double projected_length(const PhotoSight& sight, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return length_between(sight, sight.camera().project(a), sight.camera().project(b));
 }
 
 Look Looker::look(const Corners& corners, std::uint32_t source, int view) const {
@@ -66,22 +69,36 @@ Look Looker::look(const Corners& corners, std::uint32_t source, int view) const 
   const PhotoSight& s = sight(view);
   // One side of a plane is either all towards the camera or all away from it.
   if (!(normals_.of_face(source).dot(s.camera().towards_camera(corners[0])) > 0)) return found;
+  std::array<Camera::Projected, 3> projected;
+  for (std::size_t k = 0; k < 3; ++k) projected[k] = s.camera().project(corners[k]);
   for (std::size_t k = 0; k < 3; ++k)
-    found.longest_px = std::max(found.longest_px, projected_length(s, corners[k], corners[(k + 1) % 3]));
+    found.longest_px = std::max(found.longest_px, length_between(s, projected[k], projected[(k + 1) % 3]));
   if (std::isfinite(found.longest_px)) {
     std::array<Eigen::Vector2d, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = s.pixel_of(corners[k]);
+    for (std::size_t k = 0; k < 3; ++k) p[k] = s.lookup_of(projected[k].pixel);
     found.holds_corners =
         std::all_of(p.begin(), p.end(), [&](const auto& q) { return s.holds(q, border_px); });
     const Eigen::Vector2d u = p[1] - p[0];
     const Eigen::Vector2d v = p[2] - p[0];
     found.area_px = std::abs(u.x() * v.y() - u.y() * v.x()) / 2;
   }
-  const int n =
-      static_cast<int>(std::clamp(std::ceil(found.longest_px / sample_px), 1.0, double{most_samples}));
   const Eigen::Vector3d& face_normal = normals_.of_face(source);
   std::array<Eigen::Vector3d, 3> leaning;
   for (std::size_t k = 0; k < 3; ++k) leaning[k] = normals_.unscaled_at(source, corners[k]);
+  // Most faces lie in plain sight.
+  if (found.holds_corners && found.longest_px > sample_px) {
+    std::array<Eigen::Vector3d, 3> unit;
+    for (std::size_t k = 0; k < 3; ++k) unit[k] = leaning[k].stableNormalized();
+    if (s.sees_plainly(corners, projected, unit, face_normal)) {
+      const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3;
+      found.samples = found.painted = found.full = 1;
+      found.cosine =
+          (leaning[0] + leaning[1] + leaning[2]).stableNormalized().dot(s.camera().towards_camera(middle));
+      return found;
+    }
+  }
+  const int n =
+      static_cast<int>(std::clamp(std::ceil(found.longest_px / sample_px), 1.0, double{most_samples}));
   const auto sample = [&](double i, double j) {  // in steps of 1 / n along two edges
     const Eigen::Vector3d x =
         corners[0] + (i / n) * (corners[1] - corners[0]) + (j / n) * (corners[2] - corners[0]);

@@ -14,8 +14,14 @@ namespace drape::texturing {
 namespace {
 
 constexpr int largest_depth_map_px = 8192;
-constexpr double steepest_slope = 10;  // tangent of the incidence up to which the tolerance grows
-constexpr double clear_slope = 1;      // beyond the tolerance of this one a ray decides
+constexpr double steepest_slope = 10;    // tangent of the incidence up to which the tolerance grows
+constexpr double clear_slope = 1;        // beyond the tolerance of this one a ray decides
+constexpr int most_plain_pixels = 4096;  // of the depth picture, looked at for one triangle
+
+// Tangent of the incidence.
+double slope_of(double cosine) {
+  return std::min(steepest_slope, std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine);
+}
 
 }  // namespace
 
@@ -23,8 +29,12 @@ PhotoSight::PhotoSight(const Camera& camera, OutlineWarp warp, ImageF depth, Ima
                        double max_incidence_deg, const RayCaster& full)
     : camera_(camera),
       warp_(std::move(warp)),
-      camera_from_pixel_(camera.K.inverse()),
       depth_(std::move(depth)),
+      ray_of_depth_pixel_(camera.K.inverse() *
+                          Eigen::Vector3d(static_cast<double>(camera.width) / std::max(1, depth_.width()),
+                                          static_cast<double>(camera.height) / std::max(1, depth_.height()),
+                                          1)
+                              .asDiagonal()),
       trusted_(std::move(trusted)),
       tolerance_(tolerance),
       least_cosine_(std::cos(max_incidence_deg * std::numbers::pi / 180)),
@@ -53,12 +63,9 @@ std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3
   if (level == trust::none) return trust::none;
   // A pixel of the depth map tells the depth within its own width only: the steeper the surface, the less
   // exactly.
-  const double pixels_per_unit = std::sqrt(std::abs(camera_.K(0, 0) * camera_.K(1, 1)));
-  const double pixel_size =
-      (perspective ? seen.depth : 1.0) / pixels_per_unit * camera_.width / depth_.width();
-  const double slope = std::min(steepest_slope, std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine);
-  const InFront front = in_front(seen, point, normal, face_normal,
-                                 tolerance_ + pixel_size * (0.5 + std::min(clear_slope, slope)),
+  const double pixel_size = pixel_size_at(seen.depth);
+  const double slope = slope_of(cosine);
+  const InFront front = in_front(seen, point, normal, face_normal, least_tolerance_at(pixel_size, cosine),
                                  tolerance_ + pixel_size * (0.5 + slope));
   if (front == InFront::something) return trust::none;
   if (front == InFront::perhaps && ray_blocked(point, pixel_size + tolerance_ * (1 + slope)))
@@ -80,42 +87,109 @@ bool PhotoSight::ray_blocked(const Eigen::Vector3d& point, double tolerance) con
 PhotoSight::InFront PhotoSight::in_front(const Camera::Projected& seen, const Eigen::Vector3d& point,
                                          const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
                                          double least_tolerance, double tolerance) const {
-  const double scale_x = static_cast<double>(camera_.width) / depth_.width();
-  const double scale_y = static_cast<double>(camera_.height) / depth_.height();
-  const int left = static_cast<int>(std::floor(seen.pixel.x() / scale_x - 0.5));
-  const int top = static_cast<int>(std::floor(seen.pixel.y() / scale_y - 0.5));
-  // n . X = n . x in the camera's frame: along the rays of a perspective camera, depth times -n . ray is -n .
-  // x; of an orthographic one, the ray gives X and Y. Both are linear in the pixel.
-  const Eigen::Vector3d x_in_camera = camera_.camera_from_world * point;
-  const bool perspective = camera_.projection == Camera::Projection::perspective;
-  const Eigen::Matrix3d ray_of = camera_from_pixel_ * Eigen::Vector3d(scale_x, scale_y, 1).asDiagonal();
-  struct Plane {
-    Eigen::Vector3d lean;  // by the pixel
-    double offset;
-    double slope;  // depth counts so much, if orthographic
-  };
-  const auto plane_of = [&](const Eigen::Vector3d& normal_in_world) {
-    const Eigen::Vector3d n = camera_.camera_from_world.linear() * normal_in_world;
-    const Eigen::Vector3d by_ray = perspective ? n : Eigen::Vector3d(n.x(), n.y(), 0);
-    return Plane{-(ray_of.transpose() * by_ray), -n.dot(x_in_camera), -n.z()};
-  };
   InFront found = InFront::nothing;
-  const std::array<Plane, 2> planes = {plane_of(normal), plane_of(face_normal)};
-  for (int y = std::max(0, top - 1); y <= std::min(top + 2, depth_.height() - 1); ++y)
-    for (int x = std::max(0, left - 1); x <= std::min(left + 2, depth_.width() - 1); ++x) {
+  const std::array<Plane, 2> planes = {plane_of(point, normal), plane_of(point, face_normal)};
+  const DepthPixels round = pixels_round(seen.pixel, seen.pixel);
+  for (int y = round.top; y < round.bottom; ++y)
+    for (int x = round.left; x < round.right; ++x) {
       const double depth = depth_.at(x, y);
       if (!(depth < seen.depth + tolerance)) continue;  // behind, or nothing there
-      const Eigen::Vector3d pixel(x + 0.5, y + 0.5, 1);
-      const auto before = [&](const Plane& p, double by) {
-        const double lean = p.lean.dot(pixel);
-        return perspective ? lean > 0 && (depth + by) * lean < p.offset
-                           : p.slope > 0 && (depth + by) * p.slope + lean < p.offset;
-      };
-      if (!before(planes[0], least_tolerance) || !before(planes[1], least_tolerance)) continue;
-      if (before(planes[0], tolerance) && before(planes[1], tolerance)) return InFront::something;
+      if (!is_before(planes[0], x, y, depth + least_tolerance) ||
+          !is_before(planes[1], x, y, depth + least_tolerance))
+        continue;
+      if (is_before(planes[0], x, y, depth + tolerance) && is_before(planes[1], x, y, depth + tolerance))
+        return InFront::something;
       found = InFront::perhaps;
     }
   return found;
+}
+
+bool PhotoSight::sees_plainly(const std::array<Eigen::Vector3d, 3>& corners,
+                              const std::array<Camera::Projected, 3>& projected,
+                              const std::array<Eigen::Vector3d, 3>& normals,
+                              const Eigen::Vector3d& face_normal) const {
+  const bool perspective = camera_.projection == Camera::Projection::perspective;
+  Eigen::AlignedBox2d box;
+  Eigen::AlignedBox2d looked_up;
+  double nearest = std::numeric_limits<double>::infinity();
+  std::array<Eigen::Vector3d, 3> towards;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (perspective && !(projected[k].depth > 0)) return false;
+    nearest = std::min(nearest, projected[k].depth);
+    box.extend(projected[k].pixel);
+    looked_up.extend(warp_(projected[k].pixel));
+    towards[k] = camera_.towards_camera(corners[k]);
+  }
+  // Between the corners, normals and directions lean no farther apart than at them.
+  double least = 1;
+  double most = 0;
+  for (const Eigen::Vector3d& n : normals)
+    for (const Eigen::Vector3d& t : towards) {
+      const double cosine = n.dot(t);
+      least = std::min(least, cosine);
+      most = std::max(most, cosine);
+    }
+  if (!(least >= least_cosine_)) return false;
+  constexpr double bend_px = 1;  // of a warp, between the corners
+  if (warp_.moves()) {
+    looked_up.min().array() -= bend_px;
+    looked_up.max().array() += bend_px;
+  }
+  if (!(looked_up.min().minCoeff() >= 0 && looked_up.max().x() < camera_.width &&
+        looked_up.max().y() < camera_.height && holds(box.min()) && holds(box.max())))
+    return false;
+  const DepthPixels round = pixels_round(box.min(), box.max());
+  if ((round.right - round.left) * (round.bottom - round.top) > most_plain_pixels) return false;
+  for (int y = static_cast<int>(looked_up.min().y()); y <= static_cast<int>(looked_up.max().y()); ++y)
+    for (int x = static_cast<int>(looked_up.min().x()); x <= static_cast<int>(looked_up.max().x()); ++x)
+      if (trusted_.at(x, y) != trust::full) return false;
+  const double tolerance = least_tolerance_at(pixel_size_at(nearest), std::min(1.0, most));
+  const Plane plane = plane_of(corners[0], face_normal);
+  for (int y = round.top; y < round.bottom; ++y)
+    for (int x = round.left; x < round.right; ++x)
+      if (is_before(plane, x, y, depth_.at(x, y) + tolerance)) return false;
+  return true;
+}
+
+PhotoSight::Plane PhotoSight::plane_of(const Eigen::Vector3d& point,
+                                       const Eigen::Vector3d& normal_in_world) const {
+  // n . X = n . x in the camera's frame: along the rays of a perspective camera, depth times -n . ray is -n .
+  // x; of an orthographic one, the ray gives X and Y. Both are linear in the pixel.
+  const Eigen::Vector3d n = camera_.camera_from_world.linear() * normal_in_world;
+  const bool perspective = camera_.projection == Camera::Projection::perspective;
+  const Eigen::Vector3d by_ray = perspective ? n : Eigen::Vector3d(n.x(), n.y(), 0);
+  return {-(ray_of_depth_pixel_.transpose() * by_ray), -n.dot(camera_.camera_from_world * point), -n.z()};
+}
+
+// Whether what is at that depth in a pixel lies in front of the plane.
+bool PhotoSight::is_before(const Plane& p, int x, int y, double depth) const {
+  const double lean = p.lean.x() * (x + 0.5) + p.lean.y() * (y + 0.5) + p.lean.z();
+  return camera_.projection == Camera::Projection::perspective
+             ? lean > 0 && depth * lean < p.offset
+             : p.slope > 0 && depth * p.slope + lean < p.offset;
+}
+
+// Those that bilinear filtering blends anywhere in a box of photo pixels, and one more on each side.
+PhotoSight::DepthPixels PhotoSight::pixels_round(const Eigen::Vector2d& least,
+                                                 const Eigen::Vector2d& most) const {
+  const double scale_x = static_cast<double>(camera_.width) / depth_.width();
+  const double scale_y = static_cast<double>(camera_.height) / depth_.height();
+  const auto first = [](double at, double scale) { return static_cast<int>(std::floor(at / scale - 0.5)); };
+  return {std::max(0, first(least.x(), scale_x) - 1), std::max(0, first(least.y(), scale_y) - 1),
+          std::min(depth_.width(), first(most.x(), scale_x) + 3),
+          std::min(depth_.height(), first(most.y(), scale_y) + 3)};
+}
+
+// Of the depth picture, in space.
+double PhotoSight::pixel_size_at(double depth) const {
+  const double pixels_per_unit = std::sqrt(std::abs(camera_.K(0, 0) * camera_.K(1, 1)));
+  return (camera_.projection == Camera::Projection::perspective ? depth : 1.0) / pixels_per_unit *
+         camera_.width / depth_.width();
+}
+
+// What is in front by less is nothing for sure.
+double PhotoSight::least_tolerance_at(double pixel_size, double cosine) const {
+  return tolerance_ + pixel_size * (0.5 + std::min(clear_slope, slope_of(cosine)));
 }
 
 Camera depth_camera(const Camera& camera) {

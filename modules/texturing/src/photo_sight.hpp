@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "drape/geometry/camera.hpp"
 #include "drape/geometry/ray_caster.hpp"
@@ -30,8 +31,10 @@ class PhotoSight {
 
   /// Where in the photo a point in front of the camera is looked up: its projection, warped.
   [[nodiscard]] Eigen::Vector2d pixel_of(const Eigen::Vector3d& point) const {
-    return warp_(camera_.project(point).pixel);
+    return lookup_of(camera_.project(point).pixel);
   }
+  /// The same of a projection.
+  [[nodiscard]] Eigen::Vector2d lookup_of(const Eigen::Vector2d& projected) const { return warp_(projected); }
   /// How far the pixel at a position in the photo is trusted.
   [[nodiscard]] std::uint8_t trust_at(const Eigen::Vector2d& pixel) const;
 
@@ -43,11 +46,38 @@ class PhotoSight {
   [[nodiscard]] std::uint8_t sees(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                                   const Eigen::Vector3d& face_normal) const;
 
+  /// Whether every point of a small triangle is seen on fully trusted pixels, beyond doubt: nothing lies in
+  /// front of its plane anywhere near it. Where it is false, sees() tells. `projected`: the corners as the
+  /// camera projects them; `normals`: the surface's there, unit length.
+  [[nodiscard]] bool sees_plainly(const std::array<Eigen::Vector3d, 3>& corners,
+                                  const std::array<Camera::Projected, 3>& projected,
+                                  const std::array<Eigen::Vector3d, 3>& normals,
+                                  const Eigen::Vector3d& face_normal) const;
+
   /// Whether the pixel lies in the photo, give or take `margin_px`.
   [[nodiscard]] bool holds(const Eigen::Vector2d& pixel, double margin_px = 0) const;
 
  private:
   enum class InFront { nothing, perhaps, something };
+  // A plane, as far as the depth picture's pixels tell what is in front of it: both sides of
+  // (depth + tolerance) lean < offset are linear in the pixel.
+  struct Plane {
+    Eigen::Vector3d lean;  // by the pixel
+    double offset;
+    double slope;  // depth counts so much, if orthographic
+  };
+  // Pixels of the depth picture: columns left <= x < right.
+  struct DepthPixels {
+    int left;
+    int top;
+    int right;
+    int bottom;
+  };
+  [[nodiscard]] Plane plane_of(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+  [[nodiscard]] bool is_before(const Plane& plane, int x, int y, double depth) const;
+  [[nodiscard]] DepthPixels pixels_round(const Eigen::Vector2d& least, const Eigen::Vector2d& most) const;
+  [[nodiscard]] double pixel_size_at(double depth) const;
+  [[nodiscard]] double least_tolerance_at(double pixel_size, double cosine) const;
   [[nodiscard]] InFront in_front(const Camera::Projected& seen, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
                                  double least_tolerance, double tolerance) const;
@@ -55,8 +85,8 @@ class PhotoSight {
 
   Camera camera_;
   OutlineWarp warp_;
-  Eigen::Matrix3d camera_from_pixel_;  // K^-1
-  ImageF depth_;                       // perhaps smaller than the photo
+  ImageF depth_;                        // perhaps smaller than the photo
+  Eigen::Matrix3d ray_of_depth_pixel_;  // of unit depth, from (x, y, 1)
   Image8 trusted_;
   double tolerance_;
   double least_cosine_;
