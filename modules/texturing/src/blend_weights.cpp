@@ -13,8 +13,8 @@ constexpr std::size_t vertices_per_chunk = 1024;
 constexpr int most_steps = 60;
 constexpr float least_weight = 1e-3F;
 // From this share of the best photo's quality on a photo may mix, and from that one on it counts in full.
-constexpr double least_quality = 0.2;
-constexpr double full_quality = 0.6;
+constexpr double least_quality = 0.5;
+constexpr double full_quality = 0.9;
 
 float* weight_of(VertexBlend& blend, int view) {
   for (ViewWeight& w : blend)

@@ -60,6 +60,18 @@ Eigen::Vector3f PhotoColors::smooth_at(const Eigen::Vector2d& pixel) const {
   return sum / 9;
 }
 
+float PhotoColors::contrast_at(const Eigen::Vector2d& pixel) const {
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  Eigen::Array3f squares = Eigen::Array3f::Zero();
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const Eigen::Array3f log = log_light(at(pixel + Eigen::Vector2d(dx, dy))).array();
+      sum += log;
+      squares += log.square();
+    }
+  return (squares / 9 - (sum / 9).square()).max(0.F).sqrt().mean();
+}
+
 Eigen::Vector3f log_light(const Eigen::Vector3f& linear) {
   constexpr float floor = 0.01F;
   return (linear.cwiseMax(0.F).array() + floor).log();

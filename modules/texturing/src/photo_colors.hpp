@@ -17,6 +17,8 @@ class PhotoColors {
   [[nodiscard]] Eigen::Vector3f at(const Eigen::Vector2d& pixel) const;
   /// Mean of the 3 x 3 pixels round it: less noise.
   [[nodiscard]] Eigen::Vector3f smooth_at(const Eigen::Vector2d& pixel) const;
+  /// How far the logs of those pixels are apart: standard deviation, mean of the channels.
+  [[nodiscard]] float contrast_at(const Eigen::Vector2d& pixel) const;
 
  private:
   PixelBox box_{};

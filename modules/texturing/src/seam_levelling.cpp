@@ -11,6 +11,7 @@ namespace {
 
 constexpr double smoothness = 0.3;  // of a correction along an edge, against agreement at a vertex
 constexpr double anchor = 1e-4;     // keeps the mean where it was
+constexpr double plain = 0.05;      // contrast, of log light, from which on agreement counts less
 
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
@@ -107,18 +108,23 @@ std::vector<VertexGains> levelling_gains(const PaintedFaces& surface, std::span<
   for (std::size_t v = 0; v < gains.size(); ++v) {
     if (gains[v].size() < 2) continue;
     std::vector<Eigen::Vector3d> seen;
+    std::vector<double> contrast;
     for (const ViewGain& g : gains[v]) {
       const auto view = static_cast<std::size_t>(g.view);
       const Eigen::Vector2d pixel = sights[view].pixel_of(surface.mesh.vertices[v]);
       seen.emplace_back((log_light(colors[view].smooth_at(pixel)) + g.gain).cast<double>());
+      contrast.push_back(colors[view].contrast_at(pixel));
     }
     for (std::size_t i = 0; i < seen.size(); ++i)
       for (std::size_t j = i + 1; j < seen.size(); ++j) {
         const int a = unknowns.first[v] + static_cast<int>(i);
         const int b = unknowns.first[v] + static_cast<int>(j);
-        add_difference(normal, a, b, 1);
-        right.row(a) += (seen[j] - seen[i]).transpose();
-        right.row(b) -= (seen[j] - seen[i]).transpose();
+        // Near edges, photos differ by what each resolves rather than by their light.
+        const double weight =
+            1 / (1 + (contrast[i] * contrast[i] + contrast[j] * contrast[j]) / (plain * plain));
+        add_difference(normal, a, b, weight);
+        right.row(a) += weight * (seen[j] - seen[i]).transpose();
+        right.row(b) -= weight * (seen[j] - seen[i]).transpose();
       }
   }
   add_smoothness(normal, surface.mesh, chosen, gains, unknowns);
