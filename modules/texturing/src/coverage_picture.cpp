@@ -42,19 +42,20 @@ Image8 covered_pixels(const std::vector<PixelTriangle>& triangles, int width, in
 }
 
 Image8 coverage_picture(const Image8& rgb, const Image8& covered, const Image8& trusted) {
-  constexpr std::array<double, 3> orange = {255, 140, 0};
+  constexpr std::array<int, 3> orange = {255, 140, 0};
   Image8 picture(rgb.width(), rgb.height(), 3);
   for (int y = 0; y < rgb.height(); ++y)
     for (int x = 0; x < rgb.width(); ++x) {
-      const double grey = (rgb.at(x, y, 0) + 2 * rgb.at(x, y, 1) + rgb.at(x, y, 2)) / 4.0;
-      for (int c = 0; c < 3; ++c) {
-        double value = 0.3 * grey;
-        if (covered.at(x, y) != 0)
-          value = trusted.at(x, y) == trust::full
-                      ? rgb.at(x, y, c)
-                      : 0.4 * rgb.at(x, y, c) + 0.6 * orange[static_cast<std::size_t>(c)];
-        picture.at(x, y, c) = static_cast<std::uint8_t>(std::lround(value));
-      }
+      const std::uint8_t* in = &rgb.at(x, y);
+      std::uint8_t* out = &picture.at(x, y);
+      const int dim = (3 * (in[0] + 2 * in[1] + in[2]) + 20) / 40;  // 0.3 of the grey, rounded
+      for (std::size_t c = 0; c < 3; ++c)
+        if (covered.at(x, y) == 0)
+          out[c] = static_cast<std::uint8_t>(dim);
+        else if (trusted.at(x, y) == trust::full)
+          out[c] = in[c];
+        else
+          out[c] = static_cast<std::uint8_t>((2 * in[c] + 3 * orange[c] + 2) / 5);  // 0.4 and 0.6
     }
   return picture;
 }

@@ -23,15 +23,17 @@ bool same_surface(const TriangleMesh& a, const TriangleMesh& b) {
 
 Image8 stencil_of(const ImageF& depth, const Camera& camera) {
   Image8 stencil(camera.width, camera.height, 1, stencil::background);
-  for (int y = 0; y < camera.height; ++y)
-    for (int x = 0; x < camera.width; ++x) {
-      const auto reduced = [](int at, int from, int to) {
-        return static_cast<int>(static_cast<std::int64_t>(at) * to / from);
-      };
-      if (std::isfinite(
-              depth.at(reduced(x, camera.width, depth.width()), reduced(y, camera.height, depth.height()))))
-        stencil.at(x, y) = stencil::object;
-    }
+  const auto reduced = [](int at, int from, int to) {
+    return static_cast<int>(static_cast<std::int64_t>(at) * to / from);
+  };
+  std::vector<int> columns;
+  for (int x = 0; x < camera.width; ++x) columns.push_back(reduced(x, camera.width, depth.width()));
+  for (int y = 0; y < camera.height; ++y) {
+    const std::span<const float> row = depth.row(reduced(y, camera.height, depth.height()));
+    const std::span<std::uint8_t> out = stencil.row(y);
+    for (std::size_t x = 0; x < columns.size(); ++x)
+      if (std::isfinite(row[static_cast<std::size_t>(columns[x])])) out[x] = stencil::object;
+  }
   return stencil;
 }
 

@@ -61,6 +61,36 @@ TEST(UsablePixels, KeepsTheDistanceFromTheBackground) {
   EXPECT_EQ(usable_pixels({}, 20, 9, 5, 0), Image8(20, 9, 1, trust::full));
 }
 
+// Small and large radii, which are reckoned differently, against all distances.
+TEST(UsablePixels, AreAsFarFromTheBackgroundAsAsked) {
+  constexpr int width = 90;
+  constexpr int height = 70;
+  Rng rng(4);
+  Image8 shape(width, height, 1, stencil::object);
+  for (int i = 0; i < 3; ++i)
+    shape.at(static_cast<int>(rng.below(width)), static_cast<int>(rng.below(height))) = stencil::unknown;
+  for (int x = 0; x < 40; ++x) shape.at(x, 69) = stencil::background;
+  for (const auto& [erode, fill] : {std::pair{0.0, 0.0}, {1.5, 6.0}, {2.3, 0.7}, {30.0, 6.0}, {2.0, 26.0}}) {
+    const Image8 trusted = usable_pixels(shape, width, height, erode, fill);
+    const auto nearest = [&](int x, int y, auto of_kind) {
+      double least = 1e9;
+      for (int v = 0; v < height; ++v)
+        for (int u = 0; u < width; ++u)
+          if (of_kind(u, v)) least = std::min(least, std::hypot(u - x, v - y));
+      return least;
+    };
+    for (int y = 0; y < height; y += 3)
+      for (int x = 0; x < width; ++x) {
+        const bool full =
+            nearest(x, y, [&](int u, int v) { return shape.at(u, v) != stencil::object; }) >= erode + 0.5;
+        EXPECT_EQ(trusted.at(x, y) == trust::full, full) << x << ", " << y << ": " << erode;
+        if (full) continue;
+        const double beyond = nearest(x, y, [&](int u, int v) { return trusted.at(u, v) == trust::full; });
+        EXPECT_EQ(trusted.at(x, y) == trust::near, beyond <= fill) << x << ", " << y << ": " << fill;
+      }
+  }
+}
+
 TEST(GrownPhoto, GrowsAFlatColourOverTheWholeRest) {
   Image8 photo(37, 23, 3, 0);
   Image8 trusted(37, 23, 1, trust::none);
