@@ -1,7 +1,8 @@
-// How near the meshes of scans are to the truth (simulated scans of five shapes) and to the scans themselves
-// (the bunny, also without one of its scans), one row each.
-// Usage: meshing_quality [save=FOLDER] [noise=PERCENT] [shape=NAME] [real=no] [pcl=no] [meshlab=no]
-// [option=value ...], options as in the `mesh` section.
+// How near the meshes of scans are to the truth (simulated scans of five shapes, before and after filling)
+// and to the scans themselves (the bunny, also without one of its scans), one row each. Usage:
+// meshing_quality [save=FOLDER] [noise=PERCENT,...] [shape=NAME,...] [seed=NUMBER] [places=yes] [real=no]
+// [pcl=no] [meshlab=no] [option=value ...], options as in the `mesh` section. Another seed turns the scanners
+// about the object and draws other noise; places=yes prints where on the mesh the error sits.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
@@ -19,11 +20,13 @@
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/io/scan_files.hpp"
+#include "drape/meshing/hole_filling.hpp"
 #include "drape/meshing/mesh_quality.hpp"
 #include "drape/meshing/mesh_scans.hpp"
 #include "drape/metrics/surface_distance.hpp"
 #include "drape/report/turntable.hpp"
 #include "drape/simulation/range_scanner.hpp"
+#include "error_places.hpp"
 #include "poisson_peers.hpp"
 #include "program_arguments.hpp"
 #include "range_sheet.hpp"
@@ -35,7 +38,9 @@ namespace {
 
 struct Settings {
   std::string save;
-  std::string shape;
+  std::vector<std::string> shapes;
+  std::uint64_t seed = 0;
+  bool places = false;
   std::vector<double> noise_percents = {0.05, 0.1, 0.2};
   bool real = true;
   bool pcl = true;
@@ -69,7 +74,7 @@ void set_spacing(Scans& all) {
 }
 
 // From six sides, 250 samples across the diagonal, with noise and grazing drop-out.
-Scans simulated_scans(const TriangleMesh& truth, double noise_percent) {
+Scans simulated_scans(const TriangleMesh& truth, double noise_percent, std::uint64_t seed) {
   const BoundingBox box = bounding_box(truth.vertices);
   const double diagonal = box.diagonal().norm();
   const simulation::RayCaster caster(truth);
@@ -80,11 +85,15 @@ Scans simulated_scans(const TriangleMesh& truth, double noise_percent) {
   spec.noise_m = noise_percent / 100 * diagonal;
   spec.max_incidence_deg = 75;
   spec.mixed_pixel_percent = 10;
+  // Not quite along the axes, which would see boxes head-on only.
+  Rng random(seed);
+  const Eigen::Vector3d axis = seed == 0 ? Eigen::Vector3d(1, 2, 3)
+                                         : Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  const double angle = seed == 0 ? 0.35 : random.uniform(0.2, 1.2);
+  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(angle, axis.normalized()).matrix();
   Scans all;
   for (int k = 0; k < 6; ++k) {
-    spec.seed = static_cast<std::uint64_t>(k);
-    // Not quite along the axes, which would see boxes head-on only.
-    const Eigen::Matrix3d tilt = Eigen::AngleAxisd(0.35, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+    spec.seed = 100 * seed + static_cast<std::uint64_t>(k);
     const Eigen::Vector3d forward = tilt * Eigen::Vector3d::Unit(k % 3) * (k < 3 ? 1 : -1);
     Rigid3 world_from_scanner = Rigid3::Identity();
     const Eigen::Vector3d right = forward.unitOrthogonal();
@@ -207,16 +216,29 @@ void save(const Settings& settings, const std::string& name, const TriangleMesh&
   io::write_image(settings.save + "/" + name + ".png", report::turntable(mesh));
 }
 
+void measure_filled(const Settings& settings, const std::string& name, const TriangleMesh& made,
+                    const TriangleMesh& truth, const std::vector<Eigen::Vector3d>& seen, const Scans& all) {
+  meshing::FillOptions options;
+  options.simplify_triangles = 0;
+  const meshing::FillResult result =
+      meshing::fill_holes(made, all.spacing, options, {all.scans, all.world_from_scan});
+  const auto filled = std::count_if(result.holes.begin(), result.holes.end(),
+                                    [](const meshing::Hole& hole) { return hole.filled(); });
+  print_row(
+      fmt::format("  filled {} of {}, crossings {}", filled, result.holes.size(), result.self_intersections),
+      result.mesh, truth, seen, all);
+  save(settings, name, result.mesh);
+}
+
 void measure_shape(const Settings& settings, const std::string& file) {
   const std::string name = file.substr(0, file.find('.'));
-  if (!settings.shape.empty() && settings.shape != name) return;
   if (!test::have_data("meshes/" + file)) {
     fmt::print("{}: skipped, needs meshes/{} of DRAPE_TEST_DATA\n", name, file);
     return;
   }
   const TriangleMesh truth = io::read_mesh(test::data("meshes/" + file));
   for (const double noise : settings.noise_percents) {
-    const Scans all = simulated_scans(truth, noise);
+    const Scans all = simulated_scans(truth, noise, settings.seed);
     const KdTree samples(all.cloud.positions);
     std::vector<Eigen::Vector3d> seen;
     for (const Eigen::Vector3d& p : spread_points(truth, 20000, 2).positions)
@@ -228,13 +250,19 @@ void measure_shape(const Settings& settings, const std::string& file) {
         meshing::mesh_scans({all.scans, all.world_from_scan, all.cloud, all.spacing}, settings.mesh).mesh;
     print_row(row, made, truth, seen, all);
     save(settings, fmt::format("{}_{}", name, noise), made);
+    measure_filled(settings, fmt::format("{}_{}_filled", name, noise), made, truth, seen, all);
+    if (settings.places) test::print_error_places(made, truth, all.world_from_scan, all.spacing);
     const PointCloud cloud = denoised_cloud(all);
     print_samples_row(cloud, truth, all);
+    const auto print_peer = [&](const std::string& peer_row, const TriangleMesh& mesh) {
+      print_row(peer_row, mesh, truth, seen, all);
+      if (settings.places) test::print_error_places(mesh, truth, all.world_from_scan, all.spacing);
+    };
     if (!settings.pcl) continue;
     for (const int depth : {8, 9})
       if (const auto peer = test::pcl_poisson_mesh(cloud, depth))
-        print_row(fmt::format("  pcl Poisson {}, trimmed", depth),
-                  meshing::trimmed_to_samples(peer->mesh, cloud, 3 * all.spacing).mesh, truth, seen, all);
+        print_peer(fmt::format("  pcl Poisson {}, trimmed", depth),
+                   meshing::trimmed_to_samples(peer->mesh, cloud, 3 * all.spacing).mesh);
       else
         fmt::print("  pcl Poisson {}: skipped, needs pcl-tools\n", depth);
     if (!settings.meshlab) continue;
@@ -306,10 +334,23 @@ void measure_bunny(const Settings& settings) {
   for (const char* file : {"bun045.ply", "bun180.ply", "ear_back.ply"}) measure_left_out(settings, all, file);
 }
 
+// A shape's name without its ending will do.
+std::vector<std::string> files_of(const std::vector<std::string>& shapes) {
+  std::vector<std::string> files;
+  for (const std::string& shape : shapes) {
+    files.push_back(shape);
+    for (const char* ending : {".obj", ".ply", ".stl"})
+      if (test::have_data("meshes/" + shape + ending)) files.back() = shape + ending;
+  }
+  return files;
+}
+
 Settings settings_of(test::ProgramArguments& arguments) {
   Settings settings;
   settings.save = arguments.text("save").value_or("");
-  settings.shape = arguments.text("shape").value_or("");
+  settings.shapes = arguments.list("shape");
+  settings.seed = std::stoull(arguments.text("seed").value_or("0"));
+  settings.places = arguments.text("places").value_or("no") == "yes";
   if (const std::vector<std::string> noise = arguments.list("noise"); !noise.empty()) {
     settings.noise_percents.clear();
     for (const std::string& percent : noise) settings.noise_percents.push_back(std::stod(percent));
@@ -329,8 +370,10 @@ int main(int count, char** texts) {
   return drape::test::measuring_main(count, texts, [](drape::test::ProgramArguments& arguments) {
     const drape::Settings settings = drape::settings_of(arguments);
     drape::print_header();
-    for (const char* file : {"rocker-arm.obj", "Laurana50k.ply", "fandisk.obj", "spot.obj", "bun_zipper.ply"})
-      drape::measure_shape(settings, file);
+    std::vector<std::string> files{"rocker-arm.obj", "Laurana50k.ply", "fandisk.obj", "spot.obj",
+                                   "bun_zipper.ply"};
+    if (!settings.shapes.empty()) files = drape::files_of(settings.shapes);
+    for (const std::string& file : files) drape::measure_shape(settings, file);
     if (settings.real) drape::measure_bunny(settings);
   });
 }

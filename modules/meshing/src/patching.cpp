@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -12,6 +14,7 @@
 #include "drape/meshing/mesh_quality.hpp"
 #include "hole_patch.hpp"
 #include "hole_region.hpp"
+#include "least_crossing_patch.hpp"
 
 namespace drape::meshing {
 namespace {
@@ -198,6 +201,61 @@ std::vector<std::size_t> crossings_of(const TriangleMesh& patched, std::size_t f
   return crossings;
 }
 
+// Each hole's faces in the mesh that its patches are assembled to: from first[i] up to first[i + 1].
+std::vector<std::size_t> first_faces(std::size_t faces_before, const std::vector<Work>& works) {
+  std::vector<std::size_t> first{faces_before};
+  for (const Work& work : works) first.push_back(first.back() + work.patch.faces.size());
+  return first;
+}
+
+// Faces that a triangle between the loop's vertices may meet.
+std::vector<Face> faces_near(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+  Eigen::AlignedBox3d box;
+  for (const std::uint32_t v : loop) box.extend(mesh.vertices[v]);
+  std::vector<Face> near;
+  for (const Face& f : mesh.faces) {
+    Eigen::AlignedBox3d its_box;
+    for (const std::uint32_t v : f) its_box.extend(mesh.vertices[v]);
+    if (box.intersects(its_box)) near.push_back(f);
+  }
+  return near;
+}
+
+// Where all of those cross the surface, the triangulation that crosses least is sought, one hole after the
+// other, each beside the patches that the others have by then.
+TriangleMesh with_fewest_crossings(const TriangleMesh& mesh, std::vector<Work>& works,
+                                   const SpaceToKeep* keep, TriangleMesh patched) {
+  const std::vector<std::size_t> first = first_faces(mesh.faces.size(), works);
+  bool any = false;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    Work& work = works[i];
+    if (work.crossings == 0) continue;
+    // Its own patch is no obstacle to it: corners alike make a face that crosses nothing.
+    const auto begin = patched.faces.begin() + static_cast<std::ptrdiff_t>(first[i]);
+    const auto end = patched.faces.begin() + static_cast<std::ptrdiff_t>(first[i + 1]);
+    const std::vector<Face> own(begin, end);
+    std::fill(begin, end, Face{work.loop[0], work.loop[0], work.loop[0]});
+    auto found = least_crossing_patch(patched, work.loop, faces_near(patched, work.loop));
+    if (!found || found->crossings >= work.crossings ||
+        !closes_hole(found->patch, work.loop.size(), taken_chords(work.region)) ||
+        stands_in_seen_space(work, found->patch, keep)) {
+      std::copy(own.begin(), own.end(), begin);
+      continue;
+    }
+    any = true;
+    work.patch = std::move(found->patch);
+    work.action = HoleAction::plain;
+    work.how = "triangulated to cut the surface as little as can be";
+    for (const Face& f : work.patch.faces)
+      patched.faces.push_back({work.loop[f[0]], work.loop[f[1]], work.loop[f[2]]});
+  }
+  if (!any) return patched;
+  patched = assembled(mesh, works);
+  const std::vector<std::size_t> crossings = crossings_of(patched, mesh.faces.size(), works);
+  for (std::size_t i = 0; i < works.size(); ++i) works[i].crossings = crossings[i];
+  return patched;
+}
+
 // Where a patch crosses the surface, the next less smooth one is tried; the one that crosses least stays.
 TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& works,
                                   const SpaceToKeep* keep) {
@@ -225,7 +283,7 @@ TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& w
     part_chords(works);
     result = assembled(mesh, works);
   }
-  return result;
+  return with_fewest_crossings(mesh, works, keep, std::move(result));
 }
 
 }  // namespace

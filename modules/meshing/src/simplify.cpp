@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "drape/base/error.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/kd_tree.hpp"
 #include "spot_mending.hpp"
@@ -44,6 +46,8 @@ std::vector<std::uint8_t> filled_as_nearest(const TriangleMesh& mesh, const Tria
 }  // namespace
 
 TriangleMesh simplified(const TriangleMesh& mesh, const SimplifyLimits& limits) {
+  if (const std::string problem = problem_of(mesh); !problem.empty())
+    throw input_error("the mesh: {}", problem);
   const bool unlimited = limits.triangles == 0 && limits.error == 0;
   if (unlimited || mesh.faces.size() <= limits.triangles || mesh.empty()) return mesh;
   const std::vector<float> positions = centered_positions(mesh);

@@ -222,6 +222,24 @@ TEST_P(BadScans, AreMeshedRightOrRefusedClearly) {
   }
 }
 
+// The watertight variant of fusion: a closed mesh round what it makes of them open, or the same refusal.
+TEST_P(BadScans, AreCarvedToAClosedMeshOrRefusedClearly) {
+  const Input input = GetParam().make();
+  MeshOptions options;
+  options.method = Method::fusion;
+  options.closed = true;
+  const auto made = [&] { return mesh_scans({input.scans, input.poses, input.cloud, pitch}, options); };
+  if (const std::string& expected = GetParam().message[0]; !expected.empty()) {
+    const std::string message = test::error_message(ErrorCode::input, [&] { (void)made(); });
+    EXPECT_NE(message.find(expected), std::string::npos) << message;
+    return;
+  }
+  const MeshResult result = made();
+  EXPECT_EQ(problem_of(result.mesh), "");
+  EXPECT_TRUE(mesh_quality(result.mesh).closed());
+  EXPECT_GT(surface_area(result.mesh), 0.85 * GetParam().area);
+}
+
 // A mesh that is none, and what filling says of it ("": filled to a closed surface, or left as it is).
 struct BadMesh {
   std::string name;
@@ -272,9 +290,13 @@ TEST_P(BadMeshes, AreFilledAndSimplifiedOrRefusedClearly) {
   FillOptions options;
   options.simplify_triangles = 100;
   if (!GetParam().message.empty()) {
-    const std::string message =
-        test::error_message(ErrorCode::input, [&] { (void)fill_holes(mesh, 1, options); });
-    EXPECT_NE(message.find(GetParam().message), std::string::npos) << message;
+    const auto expect_refused = [](const auto& use) {
+      const std::string message = test::error_message(ErrorCode::input, use);
+      EXPECT_NE(message.find(GetParam().message), std::string::npos) << message;
+    };
+    expect_refused([&] { (void)fill_holes(mesh, 1, options); });
+    expect_refused([&] { (void)simplified(mesh, {50, 0}); });
+    expect_refused([&] { (void)mesh_quality(mesh); });
     return;
   }
   const FillResult result = fill_holes(mesh, 1, options);

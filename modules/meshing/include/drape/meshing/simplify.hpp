@@ -18,7 +18,8 @@ struct SimplifyLimits {
 /// by quadric edge collapse (Garland and Heckbert 1997, meshoptimizer; the error is estimated from the
 /// quadrics, on the safe side). The vertices are some of the mesh's own, with their bits and attributes;
 /// normals are computed anew where the mesh has them; a face is `filled` where the nearest face of the mesh
-/// is. The same mesh if it has no more faces than asked for.
+/// is. The same mesh if it has no more faces than asked for. Error{input} if it breaks its promises
+/// (problem_of).
 [[nodiscard]] TriangleMesh simplified(const TriangleMesh& mesh, const SimplifyLimits& limits);
 
 /// About `triangles` faces of a textured model by the same edge collapse, its seams and the borders between
