@@ -126,8 +126,8 @@ void print_places(const std::string& name, const std::vector<Place>& all, Is is)
     sum += place.error;
   }
   if (count == 0) return;
-  fmt::print("      {:<28} {:>5.1f} % of the surface, {:>5.1f} % of the squares, RMS {:.3f}, mean {:+.3f}\n", name,
-             100 * count / static_cast<double>(all.size()), 100 * squares / all_squares,
+  fmt::print("      {:<28} {:>5.1f} % of the surface, {:>5.1f} % of the squares, RMS {:.3f}, mean {:+.3f}\n",
+             name, 100 * count / static_cast<double>(all.size()), 100 * squares / all_squares,
              std::sqrt(squares / count), sum / count);
 }
 

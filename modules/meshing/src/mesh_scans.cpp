@@ -284,9 +284,12 @@ MeshResult meshed(const MeshInput& input, Method method, const MeshOptions& opti
   }
 }
 
-std::string_view why_empty(Method method) {
+std::string_view why_empty(Method method, bool closed) {
   switch (method) {
     case Method::fusion:
+      if (closed)
+        return "closed: true, and no space is left behind it that no scan saw to be empty: it is flat, or no "
+               "three of a scan lie within grid_max_edge_spacings and grid_max_incidence_deg";
       return "no three of a scan lie within grid_max_edge_spacings and grid_max_incidence_deg";
     case Method::poisson:
       return "their normals enclose nothing, or all of it is farther than trim_spacings off";
@@ -308,7 +311,8 @@ MeshResult mesh_scans(const MeshInput& input, const MeshOptions& options, const 
   MeshResult result = meshed(input, method, options, progress);
   result.method = method;
   if (result.mesh.empty())
-    throw input_error("meshing found no surface in {} samples: {}", result.samples_used, why_empty(method));
+    throw input_error("meshing found no surface in {} samples: {}", result.samples_used,
+                      why_empty(method, options.closed));
   result.mesh.normals = vertex_normals(result.mesh);
   progress.update(1.0);
   return result;

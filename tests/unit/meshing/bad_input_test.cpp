@@ -229,7 +229,9 @@ TEST_P(BadScans, AreCarvedToAClosedMeshOrRefusedClearly) {
   options.method = Method::fusion;
   options.closed = true;
   const auto made = [&] { return mesh_scans({input.scans, input.poses, input.cloud, pitch}, options); };
-  if (const std::string& expected = GetParam().message[0]; !expected.empty()) {
+  // A plane alone has no inside.
+  const std::string expected = GetParam().name == "coplanar" ? "it is flat" : GetParam().message[0];
+  if (!expected.empty()) {
     const std::string message = test::error_message(ErrorCode::input, [&] { (void)made(); });
     EXPECT_NE(message.find(expected), std::string::npos) << message;
     return;

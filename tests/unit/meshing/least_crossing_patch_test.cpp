@@ -30,8 +30,7 @@ std::size_t least_of_all(const TriangleMesh& mesh, const std::vector<std::uint32
     const Face f{loop[i], loop[tip], loop[k]};
     const auto here = static_cast<std::size_t>(std::count_if(
         mesh.faces.begin(), mesh.faces.end(), [&](const Face& g) { return faces_cross(mesh, f, g); }));
-    least =
-        std::min(least, here + least_of_all(mesh, loop, i, tip) + least_of_all(mesh, loop, tip, k));
+    least = std::min(least, here + least_of_all(mesh, loop, i, tip) + least_of_all(mesh, loop, tip, k));
   }
   return least;
 }
@@ -84,28 +83,22 @@ TEST(LeastCrossingPatch, TakesNoChordThatIsAnEdgeAndNoLoopThatIsTooLong) {
   EXPECT_FALSE(least_crossing_patch(sphere, loop, {}));
 }
 
-// A tube that ends in a wall: its mouth is half before it and half behind. Every patch cuts the wall.
+// A tube that ends in a wall: its mouth is half before it and half behind. Every patch cuts the wall: two
+// triangles at least, since the mouth's border runs through it in two places.
 TEST(LeastCrossingPatch, AMouthThatStraddlesAWallCutsItAsLittleAsCanBe) {
   TriangleMesh mesh;
-  constexpr std::uint32_t side = 9;
-  for (std::uint32_t y = 0; y < side; ++y)
-    for (std::uint32_t z = 0; z < side; ++z) mesh.vertices.emplace_back(0.0, y - 4.03, z - 4.07);
-  for (std::uint32_t y = 0; y + 1 < side; ++y)
-    for (std::uint32_t z = 0; z + 1 < side; ++z) {
-      const std::uint32_t a = y * side + z;
-      mesh.faces.push_back({a, a + side, a + side + 1});
-      mesh.faces.push_back({a, a + side + 1, a + 1});
-    }
+  mesh.vertices = {{0, -5, -50}, {0, 100, -50}, {0, -5, 50}};
+  mesh.faces = {{0, 1, 2}};
   constexpr std::uint32_t around = 24;
+  constexpr std::uint32_t rings = 3;
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (std::uint32_t ring = 0; ring < 3; ++ring)
+  for (std::uint32_t ring = 0; ring < rings; ++ring)
     for (std::uint32_t i = 0; i < around; ++i) {
-      const double angle = 2 * pi * i / around;
-      // It leans by 45 degrees, so that only its mouth meets the wall.
+      const double angle = 2 * pi * (i + 0.3) / around;  // no vertex in the wall itself
       const double y = 1.6 * std::cos(angle);
       mesh.vertices.emplace_back(0.3 * y - 1.2 * ring, y + 3.0 * ring, 1.6 * std::sin(angle));
     }
-  for (std::uint32_t ring = 0; ring < 2; ++ring)
+  for (std::uint32_t ring = 0; ring + 1 < rings; ++ring)
     for (std::uint32_t i = 0; i < around; ++i) {
       const std::uint32_t a = first + ring * around + i;
       const std::uint32_t b = first + ring * around + (i + 1) % around;
@@ -116,12 +109,11 @@ TEST(LeastCrossingPatch, AMouthThatStraddlesAWallCutsItAsLittleAsCanBe) {
   FillOptions options;
   options.max_hole_size_spacings = 15;
   const FillResult result = fill_holes(mesh, 1, options);
-  ASSERT_EQ(std::count_if(result.holes.begin(), result.holes.end(),
-                          [](const Hole& h) { return h.filled(); }),
-            1);
-  EXPECT_EQ(self_intersecting_pairs(result.mesh).size() - before, result.self_intersections);
-  EXPECT_GT(result.self_intersections, 0U);  // the mouth runs through the wall
-  EXPECT_LT(result.self_intersections, 8U);
+  // The tube's two ends, and not the wall's rim.
+  EXPECT_EQ(std::count_if(result.holes.begin(), result.holes.end(), [](const Hole& h) { return h.filled(); }),
+            2);
+  EXPECT_EQ(result.self_intersections, 2U);
+  EXPECT_EQ(self_intersecting_pairs(result.mesh).size() - before, 2U);
 }
 
 }  // namespace
