@@ -28,7 +28,7 @@ constexpr int height = 480;
 struct Object {
   std::string name;
   simulation::Subject subject;
-  simulation::RayCaster caster;
+  RayCaster caster;
 };
 
 Image8 rendered(const TexturedMesh& model, const Camera& camera) {
@@ -128,7 +128,7 @@ void run(test::ProgramArguments& arguments) {
     const std::string name = simulation::object_name(kind);
     if (wanted.find(name) == std::string::npos) continue;
     simulation::Subject subject = simulation::make_subject({kind, 1, 1.5});
-    const simulation::RayCaster caster(subject.mesh);
+    const RayCaster caster(subject.mesh);
     const Object object{name, std::move(subject), caster};
     for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed)
       for (std::size_t c = 0; c < cases.size(); ++c) {

@@ -77,7 +77,7 @@ void set_spacing(Scans& all) {
 Scans simulated_scans(const TriangleMesh& truth, double noise_percent, std::uint64_t seed) {
   const BoundingBox box = bounding_box(truth.vertices);
   const double diagonal = box.diagonal().norm();
-  const simulation::RayCaster caster(truth);
+  const RayCaster caster(truth);
   simulation::ScannerSpec spec;
   spec.rows = spec.columns = 400;
   const double distance = 2.5 * diagonal;

@@ -158,7 +158,7 @@ void measure_captures(const std::vector<std::string>& names, bool verbose) {
 // anyhow.
 struct Solid {
   TriangleMesh mesh;
-  simulation::RayCaster caster;
+  RayCaster caster;
   double size;
 };
 
@@ -166,7 +166,7 @@ Solid solid(TriangleMesh mesh) {
   const BoundingBox box = bounding_box(mesh.vertices);
   const double scale = 0.25 / box.diagonal().norm();
   for (auto& v : mesh.vertices) v = scale * (v - box.center());
-  simulation::RayCaster caster(mesh);
+  RayCaster caster(mesh);
   return {std::move(mesh), std::move(caster), 0.25};
 }
 

@@ -21,11 +21,11 @@
 #include "drape/base/parallel.hpp"
 #include "drape/base/random.hpp"
 #include "drape/geometry/bounding_box.hpp"
+#include "drape/geometry/ray_caster.hpp"
 #include "drape/io/photo.hpp"
 #include "drape/metrics/image_error.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "drape/simulation/objects.hpp"
-#include "drape/simulation/ray_caster.hpp"
 #include "drape/simulation/virtual_camera.hpp"
 #include "drape/texturing/texture_mesh.hpp"
 #include "painted_object.hpp"
@@ -49,7 +49,7 @@ struct Object {
   std::string name;
   simulation::ObjectSpec spec;
   TriangleMesh mesh;
-  simulation::RayCaster caster;
+  RayCaster caster;
 };
 
 struct Photo {
@@ -461,7 +461,7 @@ void run(test::ProgramArguments& arguments) {
     const simulation::ObjectSpec spec{kind, 1, 1.5};
     TriangleMesh mesh = simulation::make_object(spec);
     mesh.colors.clear();  // unseen surface is not to help
-    const simulation::RayCaster caster(mesh);
+    const RayCaster caster(mesh);
     const Object object{name, spec, std::move(mesh), caster};
     const auto asked = [&](const char* row) { return rows.empty() || rows.find(row) != std::string::npos; };
     if (asked("recovered")) measure_recovered(object, options, seed, folder);

@@ -33,23 +33,24 @@ void keep_better(Alignment& best, Alignment next) {
 // the stencil's object, then those of the whole photo.
 Alignment by_better_evidence(const TriangleMesh& mesh, const PhotoEvidence& evidence, AlignOptions options,
                              const Progress& progress) {
+  const SoughtMesh sought(mesh);
   const bool has_stencil = shows_object(evidence.stencil);
   const bool given = evidence.photo == nullptr || (has_stencil && evidence.stencil_confidence == 1);
   Alignment best;
   if (has_stencil || given) {
     options.evidence = EvidenceKind::stencil;
-    best = align_silhouette(mesh, evidence, options, given ? progress : progress.part(0, 0.3));
+    best = align_silhouette(sought, evidence, options, given ? progress : progress.part(0, 0.3));
     if (given || best.verdict == Verdict::accept) return best;
   }
   options.evidence = EvidenceKind::colour;
   if (has_stencil && !evidence.box_px && !evidence.click_px) {
     PhotoEvidence boxed = evidence;
     boxed.box_px = object_box(evidence.stencil);
-    keep_better(best, align_silhouette(mesh, boxed, options, progress.part(0.3, 0.5)));
+    keep_better(best, align_silhouette(sought, boxed, options, progress.part(0.3, 0.5)));
     if (best.verdict == Verdict::accept) return best;
   }
   keep_better(best,
-              align_silhouette(mesh, evidence, options, has_stencil ? progress.part(0.5, 1) : progress));
+              align_silhouette(sought, evidence, options, has_stencil ? progress.part(0.5, 1) : progress));
   return best;
 }
 
@@ -67,7 +68,7 @@ Alignment align_photo(const TriangleMesh& mesh, const PhotoEvidence& evidence, c
     case Method::silhouette:
       alignment = options.evidence == EvidenceKind::automatic
                       ? by_better_evidence(mesh, evidence, options, progress)
-                      : align_silhouette(mesh, evidence, options, progress);
+                      : align_silhouette(SoughtMesh(mesh), evidence, options, progress);
       break;
     case Method::exhaustive:
       alignment = align_exhaustively(mesh, evidence, options, progress);

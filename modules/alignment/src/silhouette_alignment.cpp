@@ -193,13 +193,15 @@ std::unique_ptr<Evidence> chosen_evidence(const PhotoEvidence& evidence, const A
 
 }  // namespace
 
-Alignment align_silhouette(const TriangleMesh& mesh, const PhotoEvidence& evidence,
+SoughtMesh::SoughtMesh(const TriangleMesh& whole)
+    : mesh(whole), sphere(unit_sphere(whole)), levels(mesh_levels(whole, sphere)) {}
+
+Alignment align_silhouette(const SoughtMesh& sought, const PhotoEvidence& evidence,
                            const AlignOptions& options, const Progress& progress) {
   progress.update(0, "reading the photo");
-  const UnitSphere sphere = unit_sphere(mesh);
+  const auto& [mesh, sphere, meshes] = sought;
   const PhotoPlane plane(evidence.stencil.width(), evidence.stencil.height(), evidence.lens);
   const std::unique_ptr<Evidence> outline = chosen_evidence(evidence, options, plane);
-  const MeshLevels meshes = mesh_levels(mesh, sphere);
   progress.update(0.05, "drawing views");
   SearchSettings settings = search_settings(evidence, options, plane, sphere);
   settings.principal_point_known |= options.evidence != EvidenceKind::stencil;

@@ -95,20 +95,6 @@ class ModelNormals {
   std::vector<std::array<Eigen::Vector4f, 3>> tangents_;
 };
 
-Vector3d weights_at(const TriangleMesh& mesh, std::size_t face, const Vector3d& point) {
-  const Face& f = mesh.faces[face];
-  const Vector3d scaled = scaled_face_normal(mesh, face);
-  const double square = scaled.squaredNorm();
-  if (!(square > 0)) return Vector3d::Constant(1.0 / 3);
-  Vector3d weights;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3d& b = mesh.vertices[f[(k + 1) % 3]];
-    const Vector3d& c = mesh.vertices[f[(k + 2) % 3]];
-    weights[static_cast<Eigen::Index>(k)] = (b - point).cross(c - point).dot(scaled) / square;
-  }
-  return weights.cwiseMax(0.0).cwiseMin(1.0);
-}
-
 }  // namespace
 
 Image8 render_relit(const TexturedMesh& model, const Camera& camera, const RelitStyle& style) {
@@ -130,7 +116,8 @@ Image8 render_relit(const TexturedMesh& model, const Camera& camera, const Relit
     const auto face = static_cast<std::size_t>(seen.faces.at(x, y));
     const Vector3d point = fine.unproject({x + 0.5, y + 0.5}, seen.depth.at(x, y));
     Vector3d flat = scaled_face_normal(model.mesh, face).stableNormalized();
-    Vector3d normal = normals.at(face, weights_at(model.mesh, face, point));
+    Vector3d normal =
+        normals.at(face, barycentric_weights(model.mesh, face, point).cwiseMax(0.0).cwiseMin(1.0));
     if (flat.dot(fine.towards_camera(point)) < 0) {
       flat = -flat;
       normal = -normal;

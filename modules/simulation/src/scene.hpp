@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "drape/simulation/ray_caster.hpp"
+#include "drape/geometry/ray_caster.hpp"
 #include "drape/simulation/virtual_camera.hpp"
 
 namespace drape::simulation {

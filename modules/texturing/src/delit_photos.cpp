@@ -216,19 +216,13 @@ DelitPhoto delit(const Image8& rgb, const PhotoSight& sight, rendering::Renderer
 }
 
 // Makes the brightest paint fit into what a picture can hold.
-float brightness_factor(const LightEvidence& evidence, const LightTransfer& transfer,
-                        const std::vector<PhotoLight>& lights, const LampLight& lamp_light) {
+float brightness_factor(const LightEvidence& evidence, const std::vector<PhotoLight>& lights,
+                        const Arrivals& arrivals) {
   std::vector<float> albedos;
-  std::vector<std::vector<std::vector<float>>> lamps(lights.size());
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    for (const Lamp& lamp : lights[i].lamps) lamps[i].push_back(lamp_light(lamp.towards, lamp.radius_rad));
   for (std::size_t s = 0; s < evidence.samples.size(); ++s) {
     const LightSample& sample = evidence.samples[s];
     const auto p = static_cast<std::size_t>(sample.photo);
-    std::vector<float> arrives;
-    for (const std::vector<float>& lamp : lamps[p]) arrives.push_back(lamp[s]);
-    const Eigen::Array3d light =
-        lights[p].shading(transfer.at(sample.place.face, sample.place.point), arrives);
+    const Eigen::Array3d light = shading_at(sample, s, lights[p], arrivals[p]);
     albedos.push_back((sample.log_color.array().exp() / light.cast<float>()).maxCoeff());
   }
   if (albedos.empty()) return 1;
@@ -263,8 +257,9 @@ Delighting delit_photos(const TriangleMesh& mesh, std::span<const PhotoSight> si
   };
   Delighting result;
   result.lights = fitted_lights(evidence, transfer.lit_places(), lamp_light, progress.part(0.4, 0.8));
-  result.spread = albedo_spread(evidence, result.lights, lamp_light);
-  const float factor = brightness_factor(evidence, transfer, result.lights, lamp_light);
+  const Arrivals arrivals = arrivals_of(result.lights, lamp_light);
+  result.spread = albedo_spread(evidence, result.lights, arrivals);
+  const float factor = brightness_factor(evidence, result.lights, arrivals);
   for (std::size_t i = 0; i < sights.size(); ++i) {
     progress.update(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(sights.size()),
                     "taking light out");

@@ -21,6 +21,12 @@ constexpr double candidate_radius = 0.05;  // rad
 constexpr double alike = 0.05;            // under one light: as much as noise and small shifts make
 constexpr double worth_own_lights = 0.7;  // of what it is under one light
 
+double median_of(std::vector<double>& values) {  // not of none
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 void add_column(LightShape& light, const Lamp& lamp, std::vector<float> column) {
   light.values.conservativeResize(light.values.size() + 1);
   light.values[light.values.size() - 1] = 0.3;
@@ -119,10 +125,7 @@ double apart(const LightEvidence& e, const Lights& lights) {
                                log_shading(lights, e, shared.sample, shared.photo);
     for (const double d : difference) values.push_back(std::abs(d));
   }
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0 : median_of(values);
 }
 
 // The mean log shading becomes 0, in each channel.
@@ -170,22 +173,26 @@ std::vector<PhotoLight> fitted_lights(const LightEvidence& evidence,
   return result;
 }
 
-AlbedoSpread albedo_spread(const LightEvidence& evidence, const std::vector<PhotoLight>& lights,
-                           const LampLight& lamp_light) {
-  if (evidence.shared.empty()) return {};
-  std::vector<std::vector<std::vector<float>>> lamps(lights.size());
+Arrivals arrivals_of(const std::vector<PhotoLight>& lights, const LampLight& lamp_light) {
+  Arrivals arrivals(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i)
-    for (const Lamp& lamp : lights[i].lamps) lamps[i].push_back(lamp_light(lamp.towards, lamp.radius_rad));
+    for (const Lamp& lamp : lights[i].lamps) arrivals[i].push_back(lamp_light(lamp.towards, lamp.radius_rad));
+  return arrivals;
+}
+
+Array3d shading_at(const LightSample& sample, std::size_t index, const PhotoLight& light,
+                   const std::vector<std::vector<float>>& arrivals) {
+  std::vector<float> arrives;
+  for (const std::vector<float>& lamp : arrivals) arrives.push_back(lamp[index]);
+  return light.shading(sample.transfer, arrives);
+}
+
+AlbedoSpread albedo_spread(const LightEvidence& evidence, const std::vector<PhotoLight>& lights,
+                           const Arrivals& arrivals) {
+  if (evidence.shared.empty()) return {};
   const auto log_shading = [&](std::uint32_t sample, int photo) {
     const auto p = static_cast<std::size_t>(photo);
-    std::vector<float> arrives;
-    for (const std::vector<float>& lamp : lamps[p]) arrives.push_back(lamp[sample]);
-    return Array3d(lights[p].shading(evidence.samples[sample].transfer, arrives).log());
-  };
-  const auto median_of = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return Array3d(shading_at(evidence.samples[sample], sample, lights[p], arrivals[p]).log());
   };
   // Exposures are matched pair by pair: by the median difference.
   const auto spread = [&](bool lit) {

@@ -73,6 +73,14 @@ using LampLight = std::function<std::vector<float>(const Eigen::Vector3d& toward
                                                     const std::vector<std::vector<std::uint8_t>>& lit_samples,
                                                     const LampLight& lamp_light, const Progress& progress);
 
+/// Per photo and lamp of it, how much light arrives at every sample.
+using Arrivals = std::vector<std::vector<std::vector<float>>>;
+[[nodiscard]] Arrivals arrivals_of(const std::vector<PhotoLight>& lights, const LampLight& lamp_light);
+
+/// What a photo's light makes of the paint at a sample, also of another photo's.
+[[nodiscard]] Eigen::Array3d shading_at(const LightSample& sample, std::size_t index, const PhotoLight& light,
+                                        const std::vector<std::vector<float>>& arrivals);
+
 /// Median over shared points and channels of how far the logs of two photos' albedos are apart: `before`
 /// with each photo's light taken for even (its exposure matched), `after` with the lights given.
 struct AlbedoSpread {
@@ -80,6 +88,6 @@ struct AlbedoSpread {
   double after = 0;
 };
 [[nodiscard]] AlbedoSpread albedo_spread(const LightEvidence& evidence, const std::vector<PhotoLight>& lights,
-                                         const LampLight& lamp_light);
+                                         const Arrivals& arrivals);
 
 }  // namespace drape::texturing

@@ -33,20 +33,6 @@ struct Entry {
 
 }  // namespace
 
-Vector3d corner_weights(const TriangleMesh& mesh, std::uint32_t face, const Vector3d& point) {
-  const Face& f = mesh.faces[face];
-  const Vector3d scaled = scaled_face_normal(mesh, face);
-  const double square = scaled.squaredNorm();
-  if (!(square > 0)) return Vector3d::Constant(1.0 / 3);
-  Vector3d weights;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3d& b = mesh.vertices[f[(k + 1) % 3]];
-    const Vector3d& c = mesh.vertices[f[(k + 2) % 3]];
-    weights[static_cast<Eigen::Index>(k)] = (b - point).cross(c - point).dot(scaled) / square;
-  }
-  return weights;
-}
-
 const std::vector<Vector3d>& LightTransfer::directions() {
   // Spherical Fibonacci lattice (Keinert et al. 2015).
   static const std::vector<Vector3d> all = [] {
@@ -106,7 +92,7 @@ LightTransfer::LightTransfer(const TriangleMesh& mesh, rendering::Renderer& rend
 
 Transfer LightTransfer::at(std::uint32_t face, const Vector3d& point) const {
   const Eigen::Vector3f weights =
-      corner_weights(mesh_, face, point).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
+      barycentric_weights(mesh_, face, point).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
   const auto& corners = corner_entries_[face];
   return (weights[0] * entries_[corners[0]] + weights[1] * entries_[corners[1]] +
           weights[2] * entries_[corners[2]]) /

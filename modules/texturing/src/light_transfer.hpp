@@ -48,8 +48,4 @@ class LightTransfer {
   std::vector<std::vector<std::uint8_t>> lit_places_;
 };
 
-/// Weights of a face's corners at a point in its plane; they add up to 1.
-[[nodiscard]] Eigen::Vector3d corner_weights(const TriangleMesh& mesh, std::uint32_t face,
-                                             const Eigen::Vector3d& point);
-
 }  // namespace drape::texturing

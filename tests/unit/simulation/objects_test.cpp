@@ -7,8 +7,8 @@
 
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/mesh_topology.hpp"
+#include "drape/geometry/ray_caster.hpp"
 #include "drape/metrics/surface_distance.hpp"
-#include "drape/simulation/ray_caster.hpp"
 
 namespace drape::simulation {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "drape/geometry/range_scan.hpp"
+#include "drape/geometry/ray_caster.hpp"
 #include "drape/geometry/rigid3.hpp"
 #include "drape/geometry/triangle_mesh.hpp"
-#include "drape/simulation/ray_caster.hpp"
 
 namespace drape::simulation {
 
