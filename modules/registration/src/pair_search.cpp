@@ -156,8 +156,8 @@ double PairPose::score() const {
   return sure > 0 ? sure / (1 + contradiction_of_smooth / half_sure) : sure;
 }
 
-double PairPose::relative_contradiction() const {
-  return contradiction() / std::max(firm_overlap(overlap, hold), 1e-9);
+double PairPose::seen_through_of_firm() const {
+  return seen_through / std::max(firm_overlap(overlap, hold), 1e-9);
 }
 
 PairPose judge_pair(const SearchedScan& source, const SearchedScan& target, const Rigid3& target_from_source,

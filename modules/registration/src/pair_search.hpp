@@ -45,8 +45,8 @@ struct PairPose {
 
   /// How much contradicts the lines of sight: missing returns have other causes too, and weigh less.
   [[nodiscard]] double contradiction() const { return seen_through + in_void / 5; }
-  /// That, as a share of what the two share firmly.
-  [[nodiscard]] double relative_contradiction() const;
+  /// What was seen through, as a share of what the two share firmly.
+  [[nodiscard]] double seen_through_of_firm() const;
   /// Larger is surer: the overlap, less where it nearly slides on itself, and less ten times the
   /// contradiction.
   [[nodiscard]] double score() const;

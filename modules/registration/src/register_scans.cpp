@@ -113,24 +113,31 @@ std::vector<FitOnOthers> refine(Registration& result, const std::vector<ScanSurf
   return after;
 }
 
-// Takes back the scans that were found but, once all are refined, do not fit after all; whether any.
-bool review_found(Registration& result, const GlobalPlacement& found, const Mask& came_with_pose,
-                  const std::vector<FitOnOthers>& fits, const RegisterOptions& options) {
-  bool taken_back = false;
+struct Review {
+  bool taken_back = false;           // whether any scan was
+  std::vector<RefutedPair> refuted;  // that scans taken back rested on alone
+};
+
+// Takes back the scans that were found but, once all are refined, do not fit after all.
+Review review_found(Registration& result, const GlobalSearch& search, const GlobalPlacement& found,
+                    const Mask& came_with_pose, const std::vector<FitOnOthers>& fits,
+                    const RegisterOptions& options) {
+  Review review;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     PlacedScan& scan = result.scans[i];
     if (!scan.placed || came_with_pose[i] != 0 || i == found.world_scan) continue;
     const double percent = 100 * fits[i].any.overlap();
-    std::string against = objection(i, result.scans, found.searched);
-    if (against.empty() && percent < options.min_overlap_percent)
-      against =
+    Objection against = search.objection(i, result.scans);
+    if (against.pair) review.refuted.push_back(*against.pair);
+    if (against.reason.empty() && percent < options.min_overlap_percent)
+      against.reason =
           fmt::format("only {:.0f} % of its points came to lie on other scans (min_overlap_percent: {:g})",
                       percent, options.min_overlap_percent);
-    if (against.empty()) {
+    if (against.reason.empty()) {
       scan.reason += fmt::format(" ({:.0f} % overlap)", percent);
     } else {
-      scan = {.reason = "no pose was given, and none was found: " + against};
-      taken_back = true;
+      scan = {.reason = "no pose was given, and none was found: " + against.reason};
+      review.taken_back = true;
     }
   }
   for (SearchedPair& pair : result.searched)
@@ -144,7 +151,7 @@ bool review_found(Registration& result, const GlobalPlacement& found, const Mask
         pair.accepted = false;
         pair.reason = "not placed in the end: " + result.scans[end].reason;
       }
-  return taken_back;
+  return review;
 }
 
 void report_quality(Registration& result, const std::vector<FitOnOthers>& before,
@@ -187,25 +194,36 @@ Registration register_scans(std::span<const RangeScan> scans,
   const bool move = options.method != Method::given && reach > 0;
   double start_reach = options.max_distance_spacings * median_spacing(surfaces);
   GlobalPlacement found;
+  std::optional<GlobalSearch> global;
   if (!search && std::count(came_with_pose.begin(), came_with_pose.end(), 1) == 0)
     found.world_scan = place_first(result.scans, surfaces);
   if (search && std::count(came_with_pose.begin(), came_with_pose.end(), 0) > 0) {
-    found = place_globally(result.scans, scans, surfaces, options, progress.part(0.1, 0.6));
-    result.scans = found.scans;
-    result.searched = found.pairs;
-    start_reach = std::max(start_reach, 2 * found.voxel);
+    global.emplace(result.scans, scans, surfaces, options);
+    found = global->place(progress.part(0.1, 0.6));
+    start_reach = std::max(start_reach, 2 * global->voxel());
   }
-  const std::vector<Rigid3> at_start = poses_of(result.scans);
-  const auto before = measure_fits(surfaces, at_start, mask_of(result.scans), reach);
-  std::vector<FitOnOthers> fits = before;
-  if (move)
-    fits = refine(result, surfaces, start_reach, reach, before, found.world_scan, options,
-                  progress.part(0.6, 0.9));
-  const bool taken_back =
-      !found.searched.empty() && review_found(result, found, came_with_pose, fits, options);
+  std::vector<Rigid3> at_start;
+  std::vector<FitOnOthers> before;
+  std::vector<FitOnOthers> fits;
+  const auto settle = [&](const Progress& part) {
+    if (global) {
+      result.scans = found.scans;
+      result.searched = found.pairs;
+    }
+    at_start = poses_of(result.scans);
+    fits = before = measure_fits(surfaces, at_start, mask_of(result.scans), reach);
+    if (move) fits = refine(result, surfaces, start_reach, reach, before, found.world_scan, options, part);
+    return global ? review_found(result, *global, found, came_with_pose, fits, options) : Review();
+  };
+  Review review = settle(progress.part(0.6, 0.8));
+  if (!review.refuted.empty())
+    if (auto otherwise = global->place_otherwise(review.refuted, progress.part(0.8, 0.85))) {
+      found = std::move(*otherwise);
+      review = settle(progress.part(0.85, 0.9));
+    }
 
   const Mask use = mask_of(result.scans);
-  if (taken_back) fits = measure_fits(surfaces, poses_of(result.scans), use, reach);
+  if (review.taken_back) fits = measure_fits(surfaces, poses_of(result.scans), use, reach);
   report_quality(result, before, fits);
   for (std::size_t i = 0; i < scans.size(); ++i)
     result.scans[i].moved_m = mean_move(surfaces[i], at_start[i], result.scans[i].world_from_scan);
