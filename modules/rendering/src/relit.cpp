@@ -10,6 +10,7 @@
 #include "crease_normals.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/parallel.hpp"
+#include "drape/geometry/barycentric.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/tangent_frames.hpp"
 #include "drape/rendering/renderer.hpp"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "drape/base/parallel.hpp"
+#include "drape/geometry/barycentric.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/rendering/shadow_map.hpp"
 

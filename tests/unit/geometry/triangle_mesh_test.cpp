@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "drape/geometry/barycentric.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/mesh_topology.hpp"
 #include "support.hpp"
@@ -18,6 +19,17 @@ TEST(TriangleMesh, BoxHasItsAreaAndVolume) {
   const TriangleMesh mesh = test::box({1000, 0, 0}, {1001, 2, 3});
   EXPECT_DOUBLE_EQ(surface_area(mesh), 22.0);
   EXPECT_DOUBLE_EQ(signed_volume(mesh), 6.0);
+}
+
+TEST(TriangleMesh, BarycentricWeightsSayWhereAPointIs) {
+  const TriangleMesh mesh{.vertices = {{0, 0, 1}, {4, 0, 1}, {0, 2, 1}, {4, 0, 1}},
+                          .faces = {{0, 1, 2}, {1, 3, 1}}};
+  const auto at = [&](double x, double y, double z) { return barycentric_weights(mesh, 0, {x, y, z}); };
+  EXPECT_TRUE(at(4, 0, 1).isApprox(Eigen::Vector3d(0, 1, 0)));
+  EXPECT_TRUE(at(1, 1, 1).isApprox(Eigen::Vector3d(0.25, 0.25, 0.5)));
+  EXPECT_TRUE(at(1, 1, 7).isApprox(Eigen::Vector3d(0.25, 0.25, 0.5))) << "off the plane: of its foot";
+  EXPECT_LT(at(4, 2, 1)[0], 0) << "beyond the opposite edge";
+  EXPECT_TRUE(barycentric_weights(mesh, 1, {9, 9, 9}).isApprox(Eigen::Vector3d::Constant(1.0 / 3)));
 }
 
 TEST(TriangleMesh, SphereNormalsPointOutwards) {

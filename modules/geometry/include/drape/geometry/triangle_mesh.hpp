@@ -29,12 +29,6 @@ struct TriangleMesh {
 /// Cross product of two edges: its length is twice the area; zero for a degenerate face.
 [[nodiscard]] Eigen::Vector3d scaled_face_normal(const TriangleMesh& mesh, std::size_t face);
 
-/// Barycentric coordinates of a point in a face's plane (of a point off it: of its foot): how much each
-/// corner counts there. They add up to 1 and are negative beyond the opposite edge; a third each for a face
-/// without area.
-[[nodiscard]] Eigen::Vector3d barycentric_weights(const TriangleMesh& mesh, std::size_t face,
-                                                  const Eigen::Vector3d& point);
-
 /// Area-weighted mean of the adjacent faces' normals, unit length; zero where a vertex has no face with area.
 [[nodiscard]] std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh);
 
