@@ -33,12 +33,12 @@ constexpr double hinted_cosine = 0.9;  // of half the rotation that a guess may 
 // lines of sight is up to 3.1 % of what they share firmly in right pairs of real scans, 1.1 % in those of
 // simulated ones, and over 4 % in the wrong ones of both that nothing else gives away.
 constexpr double least_overlap = 0.1;
-constexpr double most_rms_voxels = 0.28;
+constexpr double most_rms_voxels = 0.3;
 constexpr double most_contradiction = 0.035;  // of the firm overlap
 constexpr double most_contradiction_of_weak = 0.01;
 // Noise holds even a body of rotation by up to 0.0034. Below 0.025 wrong pairs occur that hardly contradict
 // anything.
-constexpr double least_hold = 0.012;
+constexpr double least_hold = 0.0085;
 constexpr double sound_hold = 0.025;
 constexpr double firm_hold = 0.06;  // what nearly slides on itself is easily shared by chance: it counts less
 constexpr double contradiction_weight = 10;
