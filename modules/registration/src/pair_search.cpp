@@ -16,14 +16,16 @@ namespace {
 
 constexpr std::size_t most_matches = 2000;
 constexpr std::size_t feature_guesses = 150;
-constexpr std::size_t vote_guesses = 200;
+constexpr std::size_t vote_guesses = 500;
 constexpr std::size_t guess_samples = 500;
 // Guesses are tried by a few steps on few points, the best of those are fitted.
 constexpr std::size_t most_tried = 60;
-constexpr std::size_t most_tried_thoroughly = 400;
+constexpr std::size_t most_tried_thoroughly = 800;
 constexpr std::size_t try_samples = 300;
 constexpr int try_steps = 8;
 constexpr std::size_t most_fitted = 12;
+constexpr std::size_t most_looked_at = 200;  // of those tried thoroughly, by what the other scanner saw
+constexpr std::size_t most_fitted_thoroughly = 30;
 constexpr std::size_t fit_samples = 1200;
 constexpr int fit_steps = 24;
 constexpr std::size_t most_refined = 4;
@@ -34,6 +36,9 @@ constexpr double hinted_cosine = 0.9;  // of half the rotation that a guess may 
 // simulated ones, and over 4 % in the wrong ones of both that nothing else gives away.
 constexpr double least_overlap = 0.1;
 constexpr double most_rms_voxels = 0.3;
+// Where nothing contradicts the lines of sight, edges and fine detail may lie further apart.
+constexpr double more_if_clean = 1.15;
+constexpr double clean = 0.002;
 constexpr double most_contradiction = 0.035;  // of the firm overlap
 constexpr double most_contradiction_of_weak = 0.01;
 // Noise holds even a body of rotation by up to 0.0034. Below 0.025 wrong pairs occur that hardly contradict
@@ -47,6 +52,7 @@ constexpr double sight_tolerance_deviations = 2.5;
 // Patches of a scan that lie in front of what the other saw, or in its void: up to 0.1 % of what agrees in
 // right simulated pairs, over 1.5 % in the wrong ones that nothing else gives away.
 constexpr double half_sure = 0.01;
+constexpr double half_sure_of_tried = 0.1;  // before they are fitted
 constexpr double smooth_tolerance_voxels = 0.3;
 constexpr double smooth_tolerance_deviations = 0.8;
 constexpr double least_agreeing = 0.02;
@@ -132,7 +138,16 @@ std::vector<Tried> promising(const SearchedScan& source, const SearchedScan& tar
     const CoarseFit fit = measure_fit(source.coarse, target.coarse, one.motion, stride);
     one.score = evidence(fit.overlap, fit.hold, seen_through_share(source, target, one.motion));
   }
-  keep_best(tried, most_fitted);
+  if (effort == Effort::quick) {
+    keep_best(tried, most_fitted);
+    return tried;
+  }
+  // Where little is shared, wrong ways to lie on much of the other scan are many: most are seen not to be.
+  keep_best(tried, most_looked_at);
+  for (Tried& one : tried)
+    if (one.score > 0)
+      one.score /= 1 + contradiction_of_smooth(source, target, one.motion) / half_sure_of_tried;
+  keep_best(tried, most_fitted_thoroughly);
   return tried;
 }
 
@@ -178,7 +193,9 @@ PairPose judge_pair(const SearchedScan& source, const SearchedScan& target, cons
       contradiction_of_smooth(source, target, target_from_source),
       {}};
   const double noise = std::max(source.coarse.noise(), target.coarse.noise()) / voxel;
-  const double most_rms = slack * std::hypot(most_rms_voxels, noise_left * noise);
+  const bool is_clean = pose.contradiction_of_smooth < clean && pose.contradiction() < clean;
+  const double most_rms =
+      (is_clean ? more_if_clean : 1.0) * slack * std::hypot(most_rms_voxels, noise_left * noise);
   if (pose.overlap < least_overlap)
     pose.against = fmt::format("only {:.0f} % overlap", 100 * pose.overlap);
   else if (pose.rms_voxels > most_rms)

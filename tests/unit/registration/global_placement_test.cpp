@@ -41,7 +41,8 @@ TEST(GlobalSearch, ARefutedPoseIsNotTakenAgain) {
   const std::optional<GlobalPlacement> second = two.search.place_otherwise({refuted}, {});
   if (second && second->pairs[0].accepted) {
     const Eigen::Vector3d p = two.surfaces[0].box().center();
-    EXPECT_GT((second->pairs[0].second_from_first * p - refuted.other_from_scan * p).norm(), two.search.voxel());
+    EXPECT_GT((second->pairs[0].second_from_first * p - refuted.other_from_scan * p).norm(),
+              two.search.voxel());
   }
 }
 

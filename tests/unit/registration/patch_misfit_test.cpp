@@ -40,7 +40,8 @@ TEST(PatchMisfit, SurfacesThatAreOnlyAlikeShow) {
   const test::DistanceField deeper = [](const Eigen::Vector3d& p) {
     return test::wavy_field()(p) - 0.18 * std::sin(p.x() / 5) * std::cos(p.y() / 5);
   };
-  EXPECT_GT(misfit(test::wavy_field(), deeper, 0.4), 1.5 * misfit(test::wavy_field(), test::wavy_field(), 0.4));
+  EXPECT_GT(misfit(test::wavy_field(), deeper, 0.4),
+            1.5 * misfit(test::wavy_field(), test::wavy_field(), 0.4));
 }
 
 TEST(PatchMisfit, SaysNothingWithoutNoise) {
