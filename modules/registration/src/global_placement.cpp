@@ -36,9 +36,11 @@ constexpr double slack_of_refined = 1.06;
 // simulated), against 0.6 to 1 %; single returns that should have been stopped, after it, mostly up to 0.9 %,
 // against 1.7 %. No right pair has both.
 constexpr double doubtful_contradiction_of_smooth = 0.0073;
-constexpr double doubtful_seen_through = 0.009;  // of the firm overlap
+constexpr double doubtful_seen_through = 0.009;
 constexpr double most_contradiction_alone = 2.3;
 constexpr double most_contradiction_of_smooth_alone = 0.012;
+// Of what they share; none in right pairs, 0.2 to 0.8 % in wrong ones that nothing else gives away.
+constexpr double most_void_alone = 0.001;
 // Up to 3.7 in 938 right simulated pairs, 6.4 to 10.3 in wrong ones.
 constexpr double most_misfit_alone = 4.7;
 
@@ -92,7 +94,7 @@ std::optional<std::size_t> main_group(const ScanGraph& graph, const std::vector<
 // single returns. Each alone has other causes too.
 double contradiction_alone(const PairPose& found, const PairPose& refined) {
   return found.contradiction_of_smooth / doubtful_contradiction_of_smooth +
-         refined.seen_through_of_firm() / doubtful_seen_through;
+         refined.seen_through / std::max(refined.overlap, 1e-9) / doubtful_seen_through;
 }
 
 bool near_each_other(const Rigid3& a, const Rigid3& b, const CoarseScan& scan) {
@@ -304,6 +306,9 @@ std::string GlobalSearch::against_alone(const RefutedPair& pair, const PairPose&
         "{:.1f} % of one lies where the other looked through, and patches of them, {:.1f} % of what they "
         "share, lay in front of what the other saw",
         100 * refined.seen_through, 100 * found.contradiction_of_smooth);
+  if (std::max(found.void_of_smooth, refined.void_of_smooth) > most_void_alone)
+    return fmt::format("patches of them, {:.1f} % of what they share, lie beside all that the other saw",
+                       100 * std::max(found.void_of_smooth, refined.void_of_smooth));
   const double misfit =
       patch_misfit(*scan.surface, scan.coarse, *other.surface, other.coarse, pair.other_from_scan);
   if (misfit > most_misfit_alone)

@@ -111,16 +111,24 @@ double seen_through_share(const SearchedScan& source, const SearchedScan& target
       source.sight.seen_through_share(target.coarse.points(), target_from_source.inverse(), tolerance));
 }
 
-double contradiction_of_smooth(const SearchedScan& source, const SearchedScan& target,
-                               const Rigid3& target_from_source) {
+// Of each way, against what agrees.
+struct SmoothContradiction {
+  double in_front = 0;
+  double in_void = 0;
+
+  [[nodiscard]] double sum() const { return in_front + in_void / 2; }
+};
+
+SmoothContradiction contradiction_of_smooth(const SearchedScan& source, const SearchedScan& target,
+                                            const Rigid3& target_from_source) {
   const double tolerance =
       std::max(smooth_tolerance_voxels * source.coarse.voxel(),
                smooth_tolerance_deviations * std::max(source.coarse.noise(), target.coarse.noise()));
   const SightShares there = target.smooth_sight.compare(source.coarse, target_from_source, tolerance);
   const SightShares back =
       source.smooth_sight.compare(target.coarse, target_from_source.inverse(), tolerance);
-  return (there.in_front + back.in_front + (there.in_void + back.in_void) / 2) /
-         std::max(there.agreeing + back.agreeing, least_agreeing);
+  const double agreeing = std::max(there.agreeing + back.agreeing, least_agreeing);
+  return {(there.in_front + back.in_front) / agreeing, (there.in_void + back.in_void) / agreeing};
 }
 
 // The guesses that lie well after a few steps, however well they lay before: the right one among them may
@@ -146,7 +154,7 @@ std::vector<Tried> promising(const SearchedScan& source, const SearchedScan& tar
   keep_best(tried, most_looked_at);
   for (Tried& one : tried)
     if (one.score > 0)
-      one.score /= 1 + contradiction_of_smooth(source, target, one.motion) / half_sure_of_tried;
+      one.score /= 1 + contradiction_of_smooth(source, target, one.motion).sum() / half_sure_of_tried;
   keep_best(tried, most_fitted_thoroughly);
   return tried;
 }
@@ -171,16 +179,13 @@ double PairPose::score() const {
   return sure > 0 ? sure / (1 + contradiction_of_smooth / half_sure) : sure;
 }
 
-double PairPose::seen_through_of_firm() const {
-  return seen_through / std::max(firm_overlap(overlap, hold), 1e-9);
-}
-
 PairPose judge_pair(const SearchedScan& source, const SearchedScan& target, const Rigid3& target_from_source,
                     double slack) {
   const Rigid3 source_from_target = target_from_source.inverse();
   const CoarseFit there = measure_fit(source.coarse, target.coarse, target_from_source, 1);
   const CoarseFit back = measure_fit(target.coarse, source.coarse, source_from_target, 1);
   const double voxel = source.coarse.voxel();
+  const SmoothContradiction smooth = contradiction_of_smooth(source, target, target_from_source);
   PairPose pose{
       target_from_source,
       std::max(there.overlap, back.overlap),
@@ -190,9 +195,12 @@ PairPose judge_pair(const SearchedScan& source, const SearchedScan& target, cons
           target.sight.in_void_share(source.coarse.points(), source.coarse.normals(), target_from_source),
           source.sight.in_void_share(target.coarse.points(), target.coarse.normals(), source_from_target)),
       std::max(there.hold, back.hold),
-      contradiction_of_smooth(source, target, target_from_source),
+      smooth.sum(),
+      smooth.in_void,
       {}};
   const double noise = std::max(source.coarse.noise(), target.coarse.noise()) / voxel;
+  // Single returns where the smoothed ones, which count in patches, show nothing.
+  const bool unseen_contradiction = pose.contradiction_of_smooth == 0 && pose.in_void == 0;
   const bool is_clean = pose.contradiction_of_smooth < clean && pose.contradiction() < clean;
   const double most_rms =
       (is_clean ? more_if_clean : 1.0) * slack * std::hypot(most_rms_voxels, noise_left * noise);
@@ -202,7 +210,9 @@ PairPose judge_pair(const SearchedScan& source, const SearchedScan& target, cons
     pose.against = fmt::format("their surfaces differ ({:.2f} of {:.2f} voxels)", pose.rms_voxels, most_rms);
   else if (pose.hold < least_hold)
     pose.against = "what they share slides on itself, as planes and round bodies do";
-  else if (pose.contradiction() > (pose.hold < sound_hold ? most_contradiction_of_weak : most_contradiction) *
+  else if (pose.contradiction() > (pose.hold < sound_hold && !unseen_contradiction
+                                       ? most_contradiction_of_weak
+                                       : most_contradiction) *
                                       firm_overlap(pose.overlap, pose.hold))
     pose.against =
         fmt::format("{:.1f} % of one lies where the other looked through, {:.1f} % where it saw nothing",

@@ -41,12 +41,11 @@ struct PairPose {
   double hold = 0;     // how firmly the shared surface holds each on the other, see CoarseFit
   /// What contradicts the smoothed lines of sight, each way, against what agrees with them.
   double contradiction_of_smooth = 0;
-  std::string against;  // why it is not to be believed; empty if it is
+  double void_of_smooth = 0;  // of this, what lies where the other saw nothing
+  std::string against;        // why it is not to be believed; empty if it is
 
   /// How much contradicts the lines of sight: missing returns have other causes too, and weigh less.
   [[nodiscard]] double contradiction() const { return seen_through + in_void / 5; }
-  /// What was seen through, as a share of what the two share firmly.
-  [[nodiscard]] double seen_through_of_firm() const;
   /// Larger is surer: the overlap, less where it nearly slides on itself, and less ten times the
   /// contradiction.
   [[nodiscard]] double score() const;

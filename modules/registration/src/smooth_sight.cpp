@@ -43,6 +43,7 @@ SmoothSight::SmoothSight(const ScanSurface& viewer, const CoarseScan& coarse)
   projection_.emplace(viewer.view(), mean_ray(viewer));
   lay_out();
   fill(coarse);
+  find_outside();
 }
 
 void SmoothSight::lay_out() {
@@ -89,6 +90,29 @@ void SmoothSight::fill(const CoarseScan& coarse) {
     }
 }
 
+void SmoothSight::find_outside() {
+  if (pixels_.empty()) return;
+  std::vector<std::ptrdiff_t> waiting{0};  // the margin is all outside
+  pixels_[0].outside = true;
+  while (!waiting.empty()) {
+    const std::ptrdiff_t pixel = waiting.back();
+    waiting.pop_back();
+    const std::ptrdiff_t row = pixel / columns_;
+    const std::ptrdiff_t column = pixel % columns_;
+    const auto reach = [&](std::ptrdiff_t r, std::ptrdiff_t c) {
+      if (r < 0 || c < 0 || r >= rows_ || c >= columns_) return;
+      Pixel& next = pixels_[static_cast<std::size_t>(r * columns_ + c)];
+      if (next.near || next.outside) return;
+      next.outside = true;
+      waiting.push_back(r * columns_ + c);
+    };
+    reach(row - 1, column);
+    reach(row + 1, column);
+    reach(row, column - 1);
+    reach(row, column + 1);
+  }
+}
+
 // In front is what lies before the planes of all pixels around: beside an edge it is behind the nearer side.
 SmoothSight::Seen SmoothSight::judge_surface(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                                              std::size_t pixel, double tolerance) const {
@@ -112,9 +136,8 @@ SmoothSight::Seen SmoothSight::judge_surface(const Eigen::Vector3d& point, const
       }
     }
   if (static_cast<double>(least) > tolerance) return Seen::in_front;
-  return static_cast<double>(closest)<tolerance&& static_cast<double>(cosine)> agreeing_cosine
-             ? Seen::agreeing
-             : Seen::nothing_told;
+  const bool agrees = static_cast<double>(closest)<tolerance&& static_cast<double>(cosine)> agreeing_cosine;
+  return agrees ? Seen::agreeing : Seen::nothing_told;
 }
 
 SmoothSight::Seen SmoothSight::judge(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
@@ -129,7 +152,7 @@ SmoothSight::Seen SmoothSight::judge(const Eigen::Vector3d& point, const Eigen::
                                                            static_cast<std::ptrdiff_t>(cell.x()))
                                 : 0;
   if (!inside || !pixels_[pixel].near) {
-    return viewer_->field_of_view().contains(point) &&
+    return (!inside || pixels_[pixel].outside) && viewer_->field_of_view().contains(point) &&
                    viewer_->view().towards_scanner(point).dot(normal) > facing_cosine
                ? Seen::in_void
                : Seen::nothing_told;

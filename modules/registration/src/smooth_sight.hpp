@@ -24,7 +24,8 @@ struct SightShares {
 
 /// An image of the scan's points, each moved onto the plane of the coarse point next to it. SightMap asks for
 /// points in front of single, noisy ones, so that noise alone must not reach it; here the noise is averaged
-/// out, and a third as much shows. Where the field of view is known, so is the void beside the object.
+/// out, and a third as much shows. Where the field of view is known, so is the void beside the object; gaps
+/// within it, which dark or shining surfaces leave too, are none.
 class SmoothSight {
  public:
   /// Refers to the surface.
@@ -39,7 +40,8 @@ class SmoothSight {
     Eigen::Vector3f point = Eigen::Vector3f::Zero();  // from center_
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     float count = 0;
-    bool near = false;  // something was seen within a few pixels
+    bool near = false;     // something was seen within a few pixels
+    bool outside = false;  // not, nor does what was seen enclose it
   };
   enum class Seen { nothing_told, agreeing, in_front, in_void };
 
@@ -47,6 +49,7 @@ class SmoothSight {
                                    std::size_t which);
   void lay_out();
   void fill(const CoarseScan& coarse);
+  void find_outside();
   [[nodiscard]] Eigen::Array2d cell_of(const Eigen::Vector2d& place) const;
   [[nodiscard]] Seen judge(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                            double tolerance) const;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "drape/ingest/estimate_normals.hpp"
+#include "kept_points.hpp"
 #include "shapes.hpp"
 
 namespace drape::registration {
@@ -55,6 +56,18 @@ TEST(SmoothSight, BesideTheObjectIsVoidWhereTheScannerLooked) {
   EXPECT_EQ(compared(shape, Rigid3::Identity()).in_void, 0);
   shape.scans[0].grid.reset();
   EXPECT_EQ(compared(shape, aside).in_void, 0) << "without a grid its field of view is not known";
+}
+
+TEST(SmoothSight, AGapWithinWhatWasSeenIsNoVoid) {
+  test::ScannedShape shape = test::scan_from_sides(test::wavy_field(), 0.1);
+  RangeScan& viewer = shape.scans[0];
+  std::vector<std::uint8_t> dark(viewer.cloud.size(), 0);  // as a patch that shines or swallows the light
+  for (std::size_t i = 0; i < dark.size(); ++i)
+    dark[i] = viewer.cloud.positions[i].head<2>().norm() < 9 ? 1 : 0;
+  const std::size_t before = viewer.cloud.size();
+  viewer = ingest::without_points(std::move(viewer), dark);
+  ASSERT_LT(viewer.cloud.size(), before - 50);
+  EXPECT_EQ(compared(shape, Rigid3::Identity()).in_void, 0);
 }
 
 TEST(SmoothSight, DivergingRaysHaveAFieldOfViewToo) {
