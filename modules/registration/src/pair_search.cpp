@@ -43,7 +43,7 @@ constexpr double most_contradiction = 0.035;  // of the firm overlap
 constexpr double most_contradiction_of_weak = 0.01;
 // Noise holds even a body of rotation by up to 0.0034. Below 0.025 wrong pairs occur that hardly contradict
 // anything.
-constexpr double least_hold = 0.0085;
+constexpr double least_hold = 0.012;
 constexpr double sound_hold = 0.025;
 constexpr double firm_hold = 0.06;  // what nearly slides on itself is easily shared by chance: it counts less
 constexpr double contradiction_weight = 10;
