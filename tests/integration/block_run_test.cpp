@@ -39,8 +39,8 @@ class BlockRun {
     io::write_colmap(scratch_ / "block", block);
   }
 
-  [[nodiscard]] Outcome operator()(const std::string& block) const {
-    return run_drape({"run", (scratch_ / "teapot.yaml").string(), "--progress=plain", "--until", "align",
+  [[nodiscard]] Outcome operator()(const std::string& block, const std::string& until = "align") const {
+    return run_drape({"run", (scratch_ / "teapot.yaml").string(), "--progress=plain", "--until", until,
                       "--workspace", (scratch_ / "workspace").string(), "--set", "align.block=" + block});
   }
   [[nodiscard]] io::CamerasRecord found() const {
@@ -92,6 +92,14 @@ TEST(BlockRun, CamerasInTheFrameOfTheMeshAreTakenAsTheyAre) {
   EXPECT_EQ(run.found().cameras.at(1).method, "given");
   EXPECT_LT(run.error_px(0), 1e-6);
   EXPECT_LT(run.error_px(1), 1e-6);
+}
+
+TEST(BlockRun, CamerasElsewhereSeeNothingOfTheMesh) {
+  const BlockRun run(1000, Eigen::Matrix3d::Identity(), {0, 0, 90000});  // far above, looking past it
+  const Outcome outcome = run("given", "texture");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE((outcome.out + outcome.err).find("no photo sees the mesh"), std::string::npos)
+      << outcome.out << outcome.err;
 }
 
 TEST(BlockRun, OnePhotoIsNoBlock) {

@@ -34,7 +34,7 @@ struct Object {
 Image8 rendered(const TexturedMesh& model, const Camera& camera) {
   rendering::TexturedStyle style;
   style.background = Eigen::Vector3f::Zero();
-  style.samples_per_side = 1;
+  style.samples_per_side = 2;  // as the photos and the pictures of the paint are made
   return rendering::render_textured(model, camera, style);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -79,6 +80,11 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
                      pose_sigma_px(record.cameras[i], loaded[i].stencil)});
   const texturing::TextureResult result =
       texturing::texture_mesh(simplified, full, views, options, run.progress());
+  const bool any_usable = std::any_of(views.begin(), views.end(), [](const auto& v) { return v.usable; });
+  if (any_usable && result.seen_percent + result.filled_percent == 0)
+    run.needs_review(
+        "no photo sees the mesh, so nothing of it is painted: are cameras and mesh in the same frame and "
+        "unit?");
   write_pictures(result, run);
   write_corrected_cameras(record, result, run);
   run.metric("seen_percent", result.seen_percent);
@@ -113,7 +119,7 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
 pipeline::Stage texture_stage() {
   pipeline::Stage stage;
   stage.name = "texture";
-  stage.version = 4;
+  stage.version = 5;
   stage.summary = "Drapes the photos over the mesh: hidden surfaces, borders, unseen parts.";
   stage.input_parts = {"photos"};
   stage.reads = {{"fill", "mesh.ply"},
