@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 #include "drape/base/parallel.hpp"
 #include "drape/ingest/point_spacing.hpp"
@@ -49,7 +48,15 @@ std::vector<Eigen::Vector3d> sample_coordinates(const RangeScan& scan, const Sca
   return result;
 }
 
-using Cube = std::array<std::int64_t, 3>;
+using Cube = std::array<std::int32_t, 3>;
+
+// Far beyond what a scan measures, all lies in one cube.
+Cube cube_at(const Eigen::Vector3d& place) {
+  constexpr double furthest = 1 << 30;
+  const Eigen::Vector3d cell = place.array().floor().max(-furthest).min(furthest);
+  return {static_cast<std::int32_t>(cell.x()), static_cast<std::int32_t>(cell.y()),
+          static_cast<std::int32_t>(cell.z())};
+}
 
 std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t node) {
   while (parent[node] != node) node = parent[node] = parent[parent[node]];
@@ -60,22 +67,54 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t node) {
 std::vector<std::uint32_t> groups_of(const std::vector<Cube>& cubes) {
   std::vector<std::uint32_t> parent(cubes.size());
   std::iota(parent.begin(), parent.end(), 0U);
-  for (std::uint32_t i = 0; i < cubes.size(); ++i)
-    for (std::int64_t x = -1; x <= 0; ++x)
-      for (std::int64_t y = -1; y <= 1; ++y) {
-        // Cubes that differ in z only lie side by side in the sorted list: look up the first of three.
-        Cube wanted{cubes[i][0] + x, cubes[i][1] + y, cubes[i][2] - 1};
-        auto found = std::lower_bound(cubes.begin(), cubes.end(), wanted);
-        for (; found != cubes.end() && (*found)[0] == wanted[0] && (*found)[1] == wanted[1] &&
-               (*found)[2] <= cubes[i][2] + 1;
-             ++found) {
-          const auto a = root_of(parent, i);
-          const auto b = root_of(parent, static_cast<std::uint32_t>(found - cubes.begin()));
-          parent[std::max(a, b)] = std::min(a, b);
-        }
-      }
+  const auto join = [&](std::size_t one, std::size_t other) {
+    const std::uint32_t a = root_of(parent, static_cast<std::uint32_t>(one));
+    const std::uint32_t b = root_of(parent, static_cast<std::uint32_t>(other));
+    parent[std::max(a, b)] = std::min(a, b);
+  };
+  // Half of the cubes around come before it. Those that differ in z only lie side by side in the sorted list,
+  // and what is looked for moves along the list as the cube itself does.
+  constexpr std::array<std::array<std::int32_t, 2>, 4> before{{{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}}};
+  std::array<std::size_t, before.size()> at{};
+  for (std::size_t i = 0; i < cubes.size(); ++i) {
+    const auto& [x, y, z] = cubes[i];
+    if (i > 0 && cubes[i - 1] == Cube{x, y, z - 1}) join(i, i - 1);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const std::int32_t column_x = x + before[k][0];
+      const std::int32_t column_y = y + before[k][1];
+      while (cubes[at[k]] < Cube{column_x, column_y, z - 1}) ++at[k];  // ends at the cube itself
+      for (std::size_t other = at[k];
+           cubes[other][0] == column_x && cubes[other][1] == column_y && cubes[other][2] <= z + 1; ++other)
+        join(i, other);
+    }
+  }
   for (std::uint32_t i = 0; i < cubes.size(); ++i) parent[i] = root_of(parent, i);
   return parent;
+}
+
+// Points that follow each other within one cube.
+struct Run {
+  Cube cube;
+  std::uint32_t begin;
+  std::uint32_t end;
+};
+
+std::vector<Run> runs_of(const std::vector<Eigen::Vector3d>& coordinates,
+                         std::span<const std::uint32_t> order, double gap) {
+  constexpr std::size_t chunk = 1 << 14;
+  std::vector<std::vector<Run>> of_chunk((order.size() + chunk - 1) / chunk);
+  parallel_for(order.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<Run>& runs = of_chunk[begin / chunk];
+    for (std::size_t k = begin; k < end; ++k) {
+      const Cube cube = cube_at((coordinates[order[k]] - coordinates[0]) / gap);
+      if (runs.empty() || runs.back().cube != cube)
+        runs.push_back({cube, static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k)});
+      runs.back().end = static_cast<std::uint32_t>(k + 1);
+    }
+  });
+  std::vector<Run> runs;
+  for (const std::vector<Run>& some : of_chunk) runs.insert(runs.end(), some.begin(), some.end());
+  return runs;
 }
 
 }  // namespace
@@ -86,47 +125,27 @@ std::vector<std::uint8_t> small_islands(const RangeScan& scan, const ScanView& v
   std::vector<std::uint8_t> small(scan.cloud.size(), 0);
   if (scan.cloud.empty() || !(spacing > 0) || least_points < 2) return small;
   const std::vector<Eigen::Vector3d> coordinates = sample_coordinates(scan, view, spacing);
-  const auto cube_of = [&](const Eigen::Vector3d& p) {
-    const Eigen::Vector3d cell = ((p - coordinates[0]) / gap_spacings).array().floor();
-    return Cube{static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
-                static_cast<std::int64_t>(cell.z())};
-  };
-  // Points of one cube mostly follow each other: one entry for each such run.
-  struct Run {
-    Cube cube;
-    std::size_t end;
-  };
-  constexpr std::size_t chunk = 1 << 14;
-  std::vector<std::vector<Run>> of_chunk((order.size() + chunk - 1) / chunk);
-  parallel_for(order.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    std::vector<Run>& runs = of_chunk[begin / chunk];
-    for (std::size_t k = begin; k < end; ++k) {
-      const Cube cube = cube_of(coordinates[order[k]]);
-      if (runs.empty() || runs.back().cube != cube) runs.push_back({cube, k});
-      runs.back().end = k + 1;
-    }
-  });
-  std::vector<Run> runs;
-  for (const std::vector<Run>& some : of_chunk) runs.insert(runs.end(), some.begin(), some.end());
-  std::vector<Cube> cubes(runs.size());
-  std::transform(runs.begin(), runs.end(), cubes.begin(), [](const Run& run) { return run.cube; });
-  std::sort(cubes.begin(), cubes.end());
-  cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
-  const std::vector<std::uint32_t> group = groups_of(cubes);
-
-  std::vector<std::uint32_t> group_of_point(coordinates.size());
-  std::vector<std::size_t> size(cubes.size(), 0);
-  std::size_t begin = 0;
+  std::vector<Run> runs = runs_of(coordinates, order, gap_spacings);
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.cube < b.cube; });
+  std::vector<Cube> cubes;
+  std::vector<std::uint32_t> points;  // of each cube
   for (const Run& run : runs) {
-    const auto cube = std::lower_bound(cubes.begin(), cubes.end(), run.cube) - cubes.begin();
-    const std::uint32_t of_run = group[static_cast<std::size_t>(cube)];
-    for (std::size_t k = begin; k < run.end; ++k) group_of_point[order[k]] = of_run;
-    size[of_run] += run.end - begin;
-    begin = run.end;
+    if (cubes.empty() || cubes.back() != run.cube) {
+      cubes.push_back(run.cube);
+      points.push_back(0);
+    }
+    points.back() += run.end - run.begin;
   }
+  const std::vector<std::uint32_t> group = groups_of(cubes);
+  std::vector<std::size_t> size(cubes.size(), 0);  // of each group
+  for (std::size_t c = 0; c < cubes.size(); ++c) size[group[c]] += points[c];
   const auto largest = static_cast<std::uint32_t>(std::max_element(size.begin(), size.end()) - size.begin());
-  for (std::size_t i = 0; i < small.size(); ++i)
-    small[i] = group_of_point[i] != largest && size[group_of_point[i]] < least_points ? 1 : 0;
+  std::size_t cube = 0;
+  for (const Run& run : runs) {
+    while (cubes[cube] != run.cube) ++cube;
+    if (group[cube] == largest || size[group[cube]] >= least_points) continue;
+    for (std::uint32_t k = run.begin; k < run.end; ++k) small[order[k]] = 1;
+  }
   return small;
 }
 

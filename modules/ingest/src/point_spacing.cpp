@@ -50,8 +50,8 @@ std::optional<double> lattice_spacing(const RangeScan& scan) {
 }
 
 double neighbor_spacing(const OrderedPoints& points, const std::vector<std::uint8_t>& dropped) {
-  constexpr std::size_t nearest = 4;      // the neighbours at distance 1 on a square lattice
-  constexpr std::size_t places = 20'000;  // a median needs no more
+  constexpr std::size_t nearest = 4;    // the neighbours at distance 1 on a square lattice
+  constexpr std::size_t places = 8000;  // a median needs no more
   const std::size_t stride = std::max<std::size_t>(1, points.size() / places);
   const auto is_dropped = [&](std::size_t i) { return !dropped.empty() && dropped[points.original(i)] != 0; };
   std::vector<double> mean(points.size() / stride + 1, -1);
