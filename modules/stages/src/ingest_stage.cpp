@@ -200,7 +200,7 @@ void run(const ingest::CleanOptions& options, pipeline::StageRun& run) {
 pipeline::Stage ingest_stage() {
   pipeline::Stage stage;
   stage.name = "ingest";
-  stage.version = 5;
+  stage.version = 6;
   stage.summary = "Reads the scans, drops bad points, and finds oriented normals.";
   stage.input_parts = {"scans", "units"};
   stage.writes = {"scans.json", "scans/*.ply", "cleaning/*.jpg", "photos/*.png", "photos/cameras.json"};
