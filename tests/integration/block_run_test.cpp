@@ -39,9 +39,11 @@ class BlockRun {
     io::write_colmap(scratch_ / "block", block);
   }
 
-  [[nodiscard]] Outcome operator()(const std::string& block, const std::string& until = "align") const {
+  [[nodiscard]] Outcome operator()(const std::string& block, const std::string& until = "align",
+                                   const std::string& setting = "texture.mode=auto") const {
     return run_drape({"run", (scratch_ / "teapot.yaml").string(), "--progress=plain", "--until", until,
-                      "--workspace", (scratch_ / "workspace").string(), "--set", "align.block=" + block});
+                      "--workspace", (scratch_ / "workspace").string(), "--set", "align.block=" + block,
+                      "--set", setting});
   }
   [[nodiscard]] io::CamerasRecord found() const {
     for (const auto& entry : fs::directory_iterator(scratch_ / "workspace/runs/teapot"))
@@ -92,6 +94,17 @@ TEST(BlockRun, CamerasInTheFrameOfTheMeshAreTakenAsTheyAre) {
   EXPECT_EQ(run.found().cameras.at(1).method, "given");
   EXPECT_LT(run.error_px(0), 1e-6);
   EXPECT_LT(run.error_px(1), 1e-6);
+}
+
+TEST(BlockRun, AnAtlasThatIsTooSmallForThePhotosIsSaid) {
+  const BlockRun run(1, Eigen::Matrix3d::Identity(), {0, 0, 0});
+  const Outcome fits = run("auto", "texture");
+  ASSERT_EQ(fits.exit_code, 0) << fits.err;
+  EXPECT_EQ((fits.out + fits.err).find("atlas_size_px"), std::string::npos) << fits.err;
+  const Outcome small = run("auto", "texture", "texture.atlas_size_px=64");
+  ASSERT_EQ(small.exit_code, 0) << small.err;
+  EXPECT_NE((small.out + small.err).find("texture.atlas_size_px: 64 is too small"), std::string::npos)
+      << small.out << small.err;
 }
 
 TEST(BlockRun, CamerasElsewhereSeeNothingOfTheMesh) {

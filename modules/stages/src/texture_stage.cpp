@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drape/base/log.hpp"
 #include "drape/io/mesh_files.hpp"
 #include "drape/io/model_files.hpp"
 #include "drape/io/photo.hpp"
@@ -11,6 +12,8 @@
 
 namespace drape::stages {
 namespace {
+
+constexpr double least_texels_per_pixel = 0.5;  // below, it is seen that the photos showed more
 
 // A photo with its final stencil: its pixels live as long as the view that refers to them.
 struct LoadedView {
@@ -102,6 +105,11 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
     run.metric("atlas_pages", static_cast<double>(result.atlas_coverage.size()));
     run.metric("atlas_used_percent", result.atlas_used_percent);
     run.metric("texels_per_photo_pixel", result.texels_per_pixel);
+    if (result.texels_per_pixel < least_texels_per_pixel)
+      log::warn(
+          "the atlas has {:.2f} texels for each of the photos' pixels: texture.atlas_size_px: {} is too "
+          "small for what they show",
+          result.texels_per_pixel, options.atlas_size_px);
   }
   for (std::size_t i = 0; i < result.views.size(); ++i)
     if (result.views[i].warp_px > 0)
