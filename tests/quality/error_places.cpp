@@ -14,8 +14,8 @@
 #include "drape/base/random.hpp"
 #include "drape/geometry/kd_tree.hpp"
 #include "drape/geometry/mesh_topology.hpp"
+#include "drape/geometry/ray_caster.hpp"
 #include "drape/metrics/surface_distance.hpp"
-#include "drape/simulation/ray_caster.hpp"
 
 namespace drape::test {
 namespace {
@@ -31,28 +31,6 @@ struct Place {
   double from_crease = std::numeric_limits<double>::infinity();
   int views = 0;
 };
-
-// Uniform on the surface; the face of each.
-std::pair<std::vector<Vector3d>, std::vector<std::size_t>> spread(const TriangleMesh& mesh,
-                                                                  std::size_t count) {
-  std::vector<double> area(mesh.faces.size() + 1, 0);
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
-    area[i + 1] = area[i] + scaled_face_normal(mesh, i).norm();
-  Rng random(1);
-  std::pair<std::vector<Vector3d>, std::vector<std::size_t>> result;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto face = static_cast<std::size_t>(
-        std::upper_bound(area.begin() + 1, area.end() - 1, random.uniform() * area.back()) - area.begin() -
-        1);
-    const Face& f = mesh.faces[face];
-    const double a = std::sqrt(random.uniform());
-    const double b = random.uniform();
-    result.first.push_back((1 - a) * mesh.vertices[f[0]] + a * (1 - b) * mesh.vertices[f[1]] +
-                           a * b * mesh.vertices[f[2]]);
-    result.second.push_back(face);
-  }
-  return result;
-}
 
 // Points along the edges where the surface bends by more than 30 degrees.
 std::vector<Vector3d> crease_points(const TriangleMesh& mesh, double step) {
@@ -80,15 +58,15 @@ std::vector<Vector3d> border_points(const TriangleMesh& mesh) {
 
 std::vector<Place> measured_places(const TriangleMesh& made, const TriangleMesh& truth,
                                    const std::vector<Rigid3>& world_from_scanner, double spacing) {
-  const std::vector<Vector3d> points = spread(made, places).first;
+  const std::vector<Vector3d> points = spread_points(made, places, 1).positions;
   const std::vector<double> distances = metrics::distances_to_surface(points, truth);
-  const auto [true_points, true_faces] = spread(truth, 400000);
+  const auto [true_points, true_faces] = spread_points(truth, 400000, 1);
   const std::vector<Vector3d> border = border_points(made);
   const std::vector<Vector3d> creases = crease_points(truth, spacing / 2);
   const KdTree to_truth(true_points);
   const KdTree to_border(border);
   const KdTree to_crease(creases);
-  const simulation::RayCaster caster(truth);
+  const RayCaster caster(truth);
   std::vector<Place> result;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Neighbor nearest{};
@@ -132,6 +110,26 @@ void print_places(const std::string& name, const std::vector<Place>& all, Is is)
 }
 
 }  // namespace
+
+SurfacePoints spread_points(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
+  std::vector<double> area(mesh.faces.size() + 1, 0);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
+    area[i + 1] = area[i] + scaled_face_normal(mesh, i).norm();
+  Rng random(seed);
+  SurfacePoints result;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto face = static_cast<std::size_t>(
+        std::upper_bound(area.begin() + 1, area.end() - 1, random.uniform() * area.back()) - area.begin() -
+        1);
+    const Face& f = mesh.faces[face];
+    const double a = std::sqrt(random.uniform());
+    const double b = random.uniform();
+    result.positions.push_back((1 - a) * mesh.vertices[f[0]] + a * (1 - b) * mesh.vertices[f[1]] +
+                               a * b * mesh.vertices[f[2]]);
+    result.faces.push_back(face);
+  }
+  return result;
+}
 
 void print_error_places(const TriangleMesh& made, const TriangleMesh& truth,
                         const std::vector<Rigid3>& world_from_scanner, double spacing) {

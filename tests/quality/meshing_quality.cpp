@@ -127,28 +127,17 @@ PointCloud denoised_cloud(const Scans& all) {
 }
 
 // Points spread over a mesh with its faces' normals.
-PointCloud spread_points(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
-  std::vector<double> area(mesh.faces.size() + 1, 0);
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
-    area[i + 1] = area[i] + scaled_face_normal(mesh, i).norm();
-  Rng random(seed);
+PointCloud spread_samples(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
+  test::SurfacePoints points = test::spread_points(mesh, count, seed);
   PointCloud cloud;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto face = static_cast<std::size_t>(
-        std::upper_bound(area.begin() + 1, area.end() - 1, random.uniform() * area.back()) - area.begin() -
-        1);
-    const Face& f = mesh.faces[face];
-    const double a = std::sqrt(random.uniform());
-    const double b = random.uniform();
-    cloud.positions.push_back((1 - a) * mesh.vertices[f[0]] + a * (1 - b) * mesh.vertices[f[1]] +
-                              a * b * mesh.vertices[f[2]]);
+  cloud.positions = std::move(points.positions);
+  for (const std::size_t face : points.faces)
     cloud.normals.push_back(scaled_face_normal(mesh, face).normalized().cast<float>());
-  }
   return cloud;
 }
 
 double mean_normal_difference_deg(const PointCloud& places, const TriangleMesh& truth) {
-  const PointCloud true_places = spread_points(truth, 400000, 4);
+  const PointCloud true_places = spread_samples(truth, 400000, 4);
   const KdTree tree(true_places.positions);
   double sum = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -163,7 +152,7 @@ double mean_normal_difference_deg(const PointCloud& places, const TriangleMesh& 
 // Of the surface farther than three spacings from every sample.
 double invented_percent(const TriangleMesh& made, const Scans& all) {
   const KdTree tree(all.cloud.positions);
-  const PointCloud places = spread_points(made, 50000, 5);
+  const PointCloud places = spread_samples(made, 50000, 5);
   std::size_t far = 0;
   for (const Eigen::Vector3d& p : places.positions) far += tree.nearest_within(p, 3 * all.spacing) ? 0 : 1;
   return 100 * static_cast<double>(far) / static_cast<double>(places.size());
@@ -189,7 +178,7 @@ void print_row(const std::string& name, const TriangleMesh& made, const Triangle
       "{:>5} {:>8} {:>8}"
       " {}\n",
       name, extra.mean / s, extra.rms / s, extra.percentile_95 / s, extra.max / s, missing.mean / s,
-      missing.rms / s, mean_normal_difference_deg(spread_points(made, 20000, 3), truth),
+      missing.rms / s, mean_normal_difference_deg(spread_samples(made, 20000, 3), truth),
       invented_percent(made, all), quality.components, quality.boundary_loops,
       quality.genus ? std::to_string(*quality.genus) : "-", quality.manifold() ? "yes" : "NO", quality.faces,
       quality.self_intersections > 0 ? fmt::format("{} self-intersections", quality.self_intersections) : "");
@@ -241,7 +230,7 @@ void measure_shape(const Settings& settings, const std::string& file) {
     const Scans all = simulated_scans(truth, noise, settings.seed);
     const KdTree samples(all.cloud.positions);
     std::vector<Eigen::Vector3d> seen;
-    for (const Eigen::Vector3d& p : spread_points(truth, 20000, 2).positions)
+    for (const Eigen::Vector3d& p : test::spread_points(truth, 20000, 2).positions)
       if (samples.nearest_within(
               p, std::max(all.spacing, 3 * noise / 100 * bounding_box(truth.vertices).diagonal().norm())))
         seen.push_back(p);
