@@ -1,0 +1,154 @@
+// What becomes of a fused field: smoothed, and cut into triangles cube by cube.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "cube_cases.hpp"
+#include "drape/base/random.hpp"
+#include "drape/geometry/mesh_topology.hpp"
+#include "drape/meshing/mesh_quality.hpp"
+#include "field_smoothing.hpp"
+#include "marching_cubes.hpp"
+
+namespace drape::meshing {
+namespace {
+
+using Eigen::Vector3d;
+
+// A field of noise has every case beside every other. 3 x 3 x 3 blocks.
+std::pair<FusionBlocks, FusedField> field_of_noise() {
+  FusionBlocks blocks;
+  blocks.lattice.voxel = 1;
+  FusedField field;
+  Rng random(3);
+  for (int z = 1; z < 4; ++z)
+    for (int y = 1; y < 4; ++y)
+      for (int x = 1; x < 4; ++x) {
+        blocks.keys.push_back(BlockKey(x, y, z).number());
+        for (int i = 0; i < VoxelLattice::block_voxels; ++i)
+          field.distances.push_back(
+              static_cast<std::int16_t>(2 * (static_cast<int>(random.below(20001)) - 10000)));
+      }
+  return {std::move(blocks), std::move(field)};
+}
+
+TriangleMesh surface_at_once(const FusionBlocks& blocks, const FusedField& field) {
+  MarchingCubes cubes(blocks);
+  cubes.number(field, blocks.size());
+  std::vector<SurfacePart> parts;
+  parts.push_back(cubes.part(field, blocks.size()));
+  return joined(std::move(parts), blocks);
+}
+
+TEST(MarchingCubes, SlabBySlabMakesTheSameMesh) {
+  const auto [blocks, field] = field_of_noise();
+  const TriangleMesh whole = surface_at_once(blocks, field);
+  FusedField window = field;
+  MarchingCubes cubes(blocks);
+  std::vector<SurfacePart> parts;
+  cubes.number(window, 9);
+  for (std::size_t end = 9; end <= 27; end += 9) {
+    cubes.number(window, std::min<std::size_t>(end + 9, 27));
+    parts.push_back(cubes.part(window, end));
+    window.forget_before(end);
+  }
+  const TriangleMesh slabs = joined(std::move(parts), blocks);
+  EXPECT_EQ(slabs.vertices, whole.vertices);
+  EXPECT_EQ(slabs.faces, whole.faces);
+}
+
+// 3 x 3 x 3 blocks from voxel (8, 8, 8) on, of distances in voxels.
+template <class Distance>
+std::pair<FusionBlocks, FusedField> field_of(Distance distance) {
+  auto [blocks, field] = field_of_noise();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (int i = 0; i < VoxelLattice::block_voxels; ++i) {
+      const Eigen::Vector3i at = blocks.corner(b) + Eigen::Vector3i(i % 8, i / 8 % 8, i / 64);
+      const double steps =
+          std::clamp(distance(at.cast<double>().eval()) / FusedField::step_voxels, -32766.0, 32766.0);
+      field.distances[b * VoxelLattice::block_voxels + static_cast<std::size_t>(i)] =
+          static_cast<std::int16_t>(2 * std::lround(steps / 2));
+    }
+  return {std::move(blocks), std::move(field)};
+}
+
+FusedField smoothed_field(const FusionBlocks& blocks, const FusedField& field, int rounds) {
+  FusedField smooth;
+  smooth_blocks(smooth, field, blocks, rounds, blocks.size());
+  return smooth;
+}
+
+TEST(FieldSmoothing, TakesNoiseOffAPlaneAcrossBlocks) {
+  Rng random(1);
+  const auto plane = [](const Vector3d& p) { return p.z() - 0.3 * p.x() - 14.8; };
+  const auto [blocks, field] = field_of([&](const Vector3d& p) { return plane(p) + 0.2 * random.normal(); });
+  const auto error = [&, &b = blocks](const FusedField& f) {
+    double sum = 0;
+    const TriangleMesh mesh = surface_at_once(b, f);
+    for (const Vector3d& p : mesh.vertices) sum += std::pow(plane(p), 2);
+    return std::sqrt(sum / static_cast<double>(mesh.vertices.size()));
+  };
+  const double before = error(field);
+  EXPECT_LT(error(smoothed_field(blocks, field, 1)), 0.5 * before);
+  EXPECT_LT(error(smoothed_field(blocks, field, 2)), 0.35 * before);
+}
+
+TEST(FieldSmoothing, LeavesPlanesGuessesAndTheUnknownAndKeepsCreases) {
+  auto [blocks, field] = field_of([](const Vector3d& p) { return std::max(p.z(), p.x()) - 19.5; });
+  field.distances[13 * 512 + 300] = FusedField::unknown;
+  field.distances[13 * 512 + 301] = 4001;  // a guess
+  const FusedField smooth = smoothed_field(blocks, field, 2);
+  for (std::size_t i = 0; i < field.distances.size(); ++i) {
+    const std::size_t voxel = i % VoxelLattice::block_voxels;
+    const Eigen::Vector3i at = blocks.corner(i / VoxelLattice::block_voxels) +
+                               Eigen::Vector3i(static_cast<int>(voxel % 8), static_cast<int>(voxel / 8 % 8),
+                                               static_cast<int>(voxel / 64));
+    const double moved = std::abs(smooth.distances[i] - field.distances[i]) * FusedField::step_voxels;
+    // A mean over 5 x 5 x 5 voxels rounds the crease by 0.8.
+    EXPECT_LE(moved, std::abs(at.x() - at.z()) > 4 ? 1e-3 : 0.5) << at.transpose();
+    if (FusedField::is_guess(field.distances[i]) || field.distances[i] == FusedField::unknown) {
+      EXPECT_EQ(smooth.distances[i], field.distances[i]);
+    }
+  }
+}
+
+TEST(FieldSmoothing, IsForNoise) {
+  EXPECT_EQ(smoothing_rounds(0.1), 0);
+  EXPECT_EQ(smoothing_rounds(0.6), 1);
+  EXPECT_EQ(smoothing_rounds(1.2), 2);
+}
+
+TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
+  const auto [blocks, field] = field_of_noise();
+  const TriangleMesh mesh = surface_at_once(blocks, field);
+  ASSERT_GT(mesh.faces.size(), 20000U);
+  const MeshQuality quality = mesh_quality(mesh);
+  EXPECT_EQ(quality.non_manifold_edges, 0U);
+  EXPECT_EQ(quality.inconsistent_edges, 0U);
+  EXPECT_EQ(quality.non_manifold_vertices, 0U);
+  EXPECT_EQ(quality.degenerate_faces, 0U);
+  // The border is on the outside of the 3 x 3 x 3 blocks only.
+  for (const auto& loop : boundary_loops(mesh))
+    for (const std::uint32_t v : loop.vertices) {
+      const Vector3d& p = mesh.vertices[v];
+      EXPECT_TRUE((p.array() == 8).any() || (p.array() == 31).any()) << p.transpose();
+    }
+}
+
+TEST(CubeCases, OneCornerInsideIsCutOffOutward) {
+  const CubeCase& cube = cube_cases()[1];
+  ASSERT_EQ(cube.triangles, 1);
+  std::array<Vector3d, 3> p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    ASSERT_EQ(edge_corner(cube.edges[0][k]), 0);
+    p[k] = Vector3d::Unit(cube.edges[0][k] / 4);
+  }
+  EXPECT_GT((p[1] - p[0]).cross(p[2] - p[0]).sum(), 0);
+}
+
+}  // namespace
+}  // namespace drape::meshing
