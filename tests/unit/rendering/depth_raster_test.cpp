@@ -8,6 +8,7 @@
 #include "drape/base/parallel.hpp"
 #include "drape/base/random.hpp"
 #include "drape/geometry/ray_caster.hpp"
+#include "lattice_sheet.hpp"
 #include "support.hpp"
 #include "test_cameras.hpp"
 
@@ -88,16 +89,8 @@ TEST(RasteredDepth, SeesWhatTheRendererSees) {
 // Every centre lies on an edge or a corner of the mesh.
 TEST(RasteredDepth, LeavesNoCentreOnAnEdgeOut) {
   constexpr int side = 12;
-  TriangleMesh sheet;
-  for (int y = 0; y <= side; ++y)
-    for (int x = 0; x <= side; ++x) sheet.vertices.emplace_back(x + 0.5, y + 0.5, 1 + 0.1 * x);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const auto a = static_cast<std::uint32_t>(y * (side + 1) + x);
-      const std::uint32_t c = a + side + 1;
-      sheet.faces.push_back({a, a + 1, c});
-      sheet.faces.push_back({a + 1, c + 1, c});
-    }
+  const TriangleMesh sheet = test::lattice_sheet(
+      side, side, [](int x, int y) { return Eigen::Vector3d(x + 0.5, y + 0.5, 1 + 0.1 * x); });
   Camera camera;
   camera.projection = Projection::orthographic;
   camera.width = side + 1;

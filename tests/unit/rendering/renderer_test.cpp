@@ -11,6 +11,7 @@
 
 #include "drape/base/parallel.hpp"
 #include "drape/base/random.hpp"
+#include "lattice_sheet.hpp"
 #include "support.hpp"
 #include "test_cameras.hpp"
 
@@ -233,16 +234,8 @@ TEST(DepthMap, NumbersHundredThousandsOfFaces) {
   // A sheet with one square cell per pixel, the diagonal clear of the pixels' centres.
   constexpr int width = 500;
   constexpr int height = 300;
-  TriangleMesh sheet;
-  for (int y = 0; y <= height; ++y)
-    for (int x = 0; x <= width; ++x) sheet.vertices.emplace_back(x - 0.1, y + 0.1, 7);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const auto a = static_cast<std::uint32_t>(y * (width + 1) + x);
-      const std::uint32_t c = a + width + 1;
-      sheet.faces.push_back({a, a + 1, c});
-      sheet.faces.push_back({a + 1, c + 1, c});
-    }
+  const TriangleMesh sheet =
+      test::lattice_sheet(width, height, [](int x, int y) { return Eigen::Vector3d(x - 0.1, y + 0.1, 7); });
   Camera camera;
   camera.projection = Projection::orthographic;
   camera.width = width;
