@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "drape/base/parallel.hpp"
+#include "drape/geometry/spatial_order.hpp"
 #include "drape/ingest/point_spacing.hpp"
-#include "drape/ingest/spatial_order.hpp"
 #include "islands.hpp"
 #include "kept_points.hpp"
 #include "lattice_distances.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "drape/geometry/spatial_order.hpp"
 #include "drape/ingest/point_spacing.hpp"
-#include "drape/ingest/spatial_order.hpp"
 #include "lattice_normals.hpp"
 #include "lattice_view.hpp"
 #include "neighborhoods.hpp"

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "drape/geometry/ordered_points.hpp"
 #include "drape/geometry/range_scan.hpp"
 #include "drape/ingest/point_spacing.hpp"
-#include "ordered_points.hpp"
 
 namespace drape::ingest {
 

@@ -23,16 +23,18 @@ std::vector<Eigen::Vector3f> lattice_normals(const RangeScan& scan, const LocalS
   std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
   struct Offset {
     int down, right;
+    int directions;  // that it leads in
     std::ptrdiff_t cells_on;
     double squared_cells;  // at least 1
   };
+  constexpr int both_directions = 3;
   std::vector<Offset> offsets;
   const int reach = static_cast<int>(std::floor(radius_cells));
   for (int down = -reach; down <= reach; ++down)
     for (int right = -reach; right <= reach; ++right)
       if (const double cells = std::hypot(down, right); cells <= radius_cells)
-        offsets.push_back(
-            {down, right, std::ptrdiff_t{down} * grid.columns + right, std::pow(std::max(1.0, cells), 2)});
+        offsets.push_back({down, right, (down != 0 ? 1 : 0) | (right != 0 ? 2 : 0),
+                           std::ptrdiff_t{down} * grid.columns + right, std::pow(std::max(1.0, cells), 2)});
   constexpr std::size_t rows_per_chunk = 8;
   parallel_for(static_cast<std::size_t>(grid.rows), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
     for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
@@ -46,8 +48,7 @@ std::vector<Eigen::Vector3f> lattice_normals(const RangeScan& scan, const LocalS
         const std::int32_t* const cell =
             &grid.cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
                         static_cast<std::size_t>(column)];
-        bool other_row = false;
-        bool other_column = false;
+        int directions = 0;
         int count = 0;
         PlaneFit plane;
         for (const Offset& offset : offsets) {
@@ -58,10 +59,9 @@ std::vector<Eigen::Vector3f> lattice_normals(const RangeScan& scan, const LocalS
           if (to.squaredNorm() > squared_step * offset.squared_cells) continue;
           plane.add(to);
           ++count;
-          other_row |= offset.down != 0;
-          other_column |= offset.right != 0;
+          directions |= offset.directions;
         }
-        if (count >= 5 && other_row && other_column)
+        if (count >= 5 && directions == both_directions)
           normals[static_cast<std::size_t>(center)] = plane.normal();
       }
   });

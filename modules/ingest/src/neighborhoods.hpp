@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ordered_points.hpp"
+#include "drape/geometry/ordered_points.hpp"
 
 namespace drape::ingest {
 

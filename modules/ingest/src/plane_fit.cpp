@@ -18,19 +18,52 @@ double least_eigenvalue(double b, double c) {
     if (!(slope > 0) || !(value < 0)) break;
     const double step = value / slope;
     x -= step;
-    if (-step < 1e-12) break;
+    if (-step < 1e-9) break;  // of 1: finer than the floats of the sums
   }
   return x;
 }
 
 }  // namespace
 
-Eigen::Vector3f PlaneFit::normal() const {
+void PlaneFit::take_waiting() {
+  constexpr std::size_t width = 4;
+  using Lanes = Eigen::Array<float, width, 1>;
+  count_ += static_cast<double>(waiting_count_);
+  for (; waiting_count_ % width != 0; ++waiting_count_)
+    for (auto& axis : waiting_) axis[waiting_count_] = 0;
+  std::array<Lanes, 9> sums;
+  for (Lanes& sum : sums) sum.setZero();
+  for (std::size_t k = 0; k < waiting_count_; k += width) {
+    const auto [x, y, z] = std::array{Lanes(Eigen::Map<const Lanes>(&waiting_[0][k])),
+                                      Lanes(Eigen::Map<const Lanes>(&waiting_[1][k])),
+                                      Lanes(Eigen::Map<const Lanes>(&waiting_[2][k]))};
+    sums[0] += x;
+    sums[1] += y;
+    sums[2] += z;
+    sums[3] += x * x;
+    sums[4] += y * y;
+    sums[5] += z * z;
+    sums[6] += y * z;
+    sums[7] += z * x;
+    sums[8] += x * y;
+  }
+  const auto three = [&](std::size_t first) -> Eigen::Vector3d {
+    return Eigen::Vector3f(sums[first].sum(), sums[first + 1].sum(), sums[first + 2].sum()).cast<double>();
+  };
+  sum_ += three(0);
+  squares_ += three(3);
+  products_ += three(6);
+  waiting_count_ = 0;
+}
+
+Eigen::Vector3f PlaneFit::normal() {
+  take_waiting();
   if (!(count_ > 0)) return Eigen::Vector3f::UnitZ();
-  const Eigen::Vector3d mean = sum_ / count_;
   Eigen::Matrix3d covariance;
-  covariance << xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_;
-  covariance -= mean * sum_.transpose();
+  covariance << squares_.x(), products_.z(), products_.y(),  //
+      products_.z(), squares_.y(), products_.x(),            //
+      products_.y(), products_.x(), squares_.z();
+  covariance -= sum_ * (sum_ / count_).transpose();
   const double trace = covariance.trace();
   if (!(trace > 0) || !std::isfinite(trace)) return Eigen::Vector3f::UnitZ();
   covariance /= trace;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "drape/geometry/ordered_points.hpp"
 #include "drape/geometry/range_scan.hpp"
-#include "ordered_points.hpp"
 
 namespace drape::ingest {
 

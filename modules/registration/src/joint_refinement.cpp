@@ -13,7 +13,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t coarse_samples = 1500;
-constexpr std::size_t fine_samples = 6000;
+constexpr std::size_t fine_samples = 5000;
 constexpr double nearly_converged = 10;  // times the tolerance: from there on many samples count
 constexpr std::size_t least_matches = 20;
 

@@ -8,7 +8,7 @@
 namespace drape::registration {
 namespace {
 
-constexpr std::size_t quality_samples = 5000;
+constexpr std::size_t quality_samples = 3000;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;

@@ -6,9 +6,9 @@
 #include <cassert>
 
 #include "drape/base/parallel.hpp"
+#include "drape/geometry/spatial_order.hpp"
 #include "drape/ingest/estimate_normals.hpp"
 #include "drape/ingest/point_spacing.hpp"
-#include "drape/ingest/spatial_order.hpp"
 #include "global_placement.hpp"
 #include "joint_refinement.hpp"
 #include "merged_cloud.hpp"
@@ -29,7 +29,7 @@ struct PreparedScans {
       for (std::size_t i = begin; i < end; ++i) {
         const RangeScan& scan = scans[i];
         const double spacing = scan.spacing > 0 ? scan.spacing : ingest::point_spacing(scan);
-        const std::vector<std::uint32_t> order = ingest::morton_order(scan.cloud.positions);
+        const std::vector<std::uint32_t> order = morton_order(scan.cloud.positions);
         normals[i] = scan.cloud.normals;
         if (scan.cloud.normals.size() != scan.cloud.size())
           normals[i] = estimated[i] = ingest::estimate_normals(scan, spacing, order);

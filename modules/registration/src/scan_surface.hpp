@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "drape/geometry/bounding_box.hpp"
-#include "drape/geometry/kd_tree.hpp"
+#include "drape/geometry/ordered_points.hpp"
 #include "drape/geometry/range_scan.hpp"
 #include "drape/ingest/point_spacing.hpp"
 #include "field_of_view.hpp"
@@ -35,8 +35,8 @@ class ScanSurface {
   ScanSurface(const RangeScan& scan, double scan_spacing, std::span<const std::uint32_t> order,
               std::span<const Eigen::Vector3f> normals);
 
-  [[nodiscard]] std::size_t size() const { return points_.size(); }
-  [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  [[nodiscard]] std::size_t size() const { return ordered_.size(); }
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return ordered_.points(); }
   [[nodiscard]] const std::vector<Eigen::Vector3d>& normals() const { return normals_; }
   [[nodiscard]] const std::vector<double>& confidences() const { return confidences_; }
   [[nodiscard]] const ScanView& view() const { return view_; }
@@ -64,6 +64,9 @@ class ScanSurface {
                                                   double reach) const;
 
  private:
+  [[nodiscard]] std::optional<std::uint32_t> nearest(const Eigen::Vector3d& point, double scale,
+                                                     double local_reach) const;
+
   ScanView view_;
   FieldOfView field_of_view_;
   BoundingBox box_;
@@ -71,10 +74,9 @@ class ScanSurface {
   std::size_t stride_;
   double spacing_;
   ingest::LocalSpacing local_spacing_;
-  std::vector<Eigen::Vector3d> points_;  // in Morton order
+  OrderedPoints ordered_;
   std::vector<Eigen::Vector3d> normals_;
   std::vector<double> confidences_;
-  std::optional<KdTree> tree_;
   std::optional<PixelIndex> pixels_;
   double noise_ = 0;
   bool is_surface_ = false;

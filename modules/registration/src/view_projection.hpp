@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
 
@@ -22,16 +21,7 @@ class ViewProjection {
  public:
   /// The view must be known. Rays along `axis` from an origin fall on the middle of the map; those away from
   /// it on its corners.
-  explicit ViewProjection(const ScanView& view, const Eigen::Vector3d& axis = Eigen::Vector3d::UnitZ())
-      : view_(view) {
-    if (view.kind == ScanView::Kind::direction) {
-      axes_.row(0) = view.vector.unitOrthogonal();
-      axes_.row(1) = view.vector.cross(axes_.row(0).transpose());
-      axes_.row(2) = view.vector;
-    } else {
-      axes_ = Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    }
-  }
+  explicit ViewProjection(const ScanView& view, const Eigen::Vector3d& axis = Eigen::Vector3d::UnitZ());
 
   /// Nothing for the origin itself.
   [[nodiscard]] std::optional<Sighting> of(const Eigen::Vector3d& point) const {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "analytic_scans.hpp"
-#include "drape/ingest/spatial_order.hpp"
+#include "drape/geometry/spatial_order.hpp"
 
 namespace drape::ingest {
 namespace {

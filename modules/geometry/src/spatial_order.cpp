@@ -1,4 +1,4 @@
-#include "drape/ingest/spatial_order.hpp"
+#include "drape/geometry/spatial_order.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "drape/base/parallel.hpp"
 #include "drape/geometry/bounding_box.hpp"
 
-namespace drape::ingest {
+namespace drape {
 namespace {
 
 // Puts two zero bits between the lower 21 bits of x.
@@ -85,4 +85,4 @@ std::vector<std::uint32_t> morton_order(std::span<const Eigen::Vector3d> points)
   return order;
 }
 
-}  // namespace drape::ingest
+}  // namespace drape

@@ -1,5 +1,5 @@
 // Neighbours by the tree of boxes against all distances, one by one.
-#include "ordered_points.hpp"
+#include "drape/geometry/ordered_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "drape/base/parallel.hpp"
 #include "drape/base/random.hpp"
 
-namespace drape::ingest {
+namespace drape {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -106,4 +106,4 @@ TEST(OrderedPointsTest, PartOfThePoints) {
 }
 
 }  // namespace
-}  // namespace drape::ingest
+}  // namespace drape

@@ -7,10 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
-namespace drape::ingest {
+namespace drape {
 
 /// One of a point's neighbours; neighbours compare by distance, equal ones by index.
 struct Near {
@@ -43,6 +44,9 @@ class OrderedPoints {
 
   /// The points nearest to `query` into `found`, nearest first; returns how many.
   std::size_t nearest(const Eigen::Vector3d& query, std::span<Near> found) const;
+
+  /// The nearest one closer than `radius`, if there is one: it looks no further than that.
+  [[nodiscard]] std::optional<Near> nearest_within(const Eigen::Vector3d& query, double radius) const;
 
   /// Calls visit(index) for the points within `radius` of `query`.
   void within(const Eigen::Vector3d& query, double radius,
@@ -89,4 +93,4 @@ class OrderedPoints {
   std::vector<std::vector<Node>> levels_;  // children of the first are buckets; the last is the root
 };
 
-}  // namespace drape::ingest
+}  // namespace drape

@@ -1,4 +1,4 @@
-#include "ordered_points.hpp"
+#include "drape/geometry/ordered_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 
 #include "drape/base/parallel.hpp"
 #include "drape/geometry/bounding_box.hpp"
-#include "drape/ingest/spatial_order.hpp"
+#include "drape/geometry/spatial_order.hpp"
 
-namespace drape::ingest {
+namespace drape {
 namespace {
 
 constexpr std::size_t buckets_per_chunk = 512;
@@ -157,18 +157,23 @@ void OrderedPoints::within(const Eigen::Vector3d& query, double radius,
 // Depth first, nearer children first; `found` is sorted.
 void OrderedPoints::search(std::size_t level, std::size_t node, const Eigen::Vector3d& query,
                            const Box& place, std::span<Near> found, std::size_t& count) const {
-  const Lanes gaps = squared_gaps(levels_[level][node], place);
+  const auto furthest = [&] {
+    return count == found.size() ? found[count - 1].squared_distance() : std::numeric_limits<float>::max();
+  };
+  const Lanes gaps = squared_gaps(levels_[level][node], place) * (1 - rounding);
   std::array<std::pair<float, std::size_t>, width> children;
   std::size_t waiting = 0;
+  const float limit = furthest();
+  if (!(gaps <= limit).any()) return;
   for (Eigen::Index k = 0; k < width; ++k) {
-    if (gaps[k] == infinity) continue;
+    if (!(gaps[k] <= limit)) continue;  // nor is there a child infinitely far away
     std::size_t at = waiting++;
     for (; at > 0 && gaps[k] < children[at - 1].first; --at) children[at] = children[at - 1];
     children[at] = {gaps[k], node * width + static_cast<std::size_t>(k)};
   }
   for (std::size_t c = 0; c < waiting; ++c) {
     const auto [gap, child] = children[c];
-    if (count == found.size() && gap * (1 - rounding) > found[count - 1].squared_distance()) return;
+    if (gap > furthest()) return;
     if (level > 0) {
       search(level - 1, child, query, place, found, count);
       continue;
@@ -176,6 +181,7 @@ void OrderedPoints::search(std::size_t level, std::size_t node, const Eigen::Vec
     const Bucket& bucket = buckets_[child];
     const Lanes squared = squared_lengths(bucket.offsets, rounded(query - bucket.origin));
     const float wide = bucket.extent * bucket.extent / (widest * widest);
+    if (!(squared <= std::max(wide, furthest())).any()) continue;
     for (std::size_t i = child * width; i < std::min(points_.size(), (child + 1) * width); ++i) {
       float length = squared[static_cast<Eigen::Index>(i - child * width)];
       if (length < wide) length = rounded(points_[i] - query).square().sum();
@@ -193,6 +199,16 @@ std::size_t OrderedPoints::nearest(const Eigen::Vector3d& query, std::span<Near>
   std::size_t count = 0;
   search(levels_.size() - 1, 0, query, box_of(query), found, count);
   return count;
+}
+
+std::optional<Near> OrderedPoints::nearest_within(const Eigen::Vector3d& query, double radius) const {
+  if (points_.empty() || !(radius > 0)) return std::nullopt;
+  // Found already, so to say, at the radius: anything nearer takes its place.
+  const auto squared_radius = static_cast<float>(radius * radius);
+  Near found(squared_radius, 0);
+  std::size_t count = 1;
+  search(levels_.size() - 1, 0, query, box_of(query), std::span(&found, 1), count);
+  return found.squared_distance() < squared_radius ? std::optional(found) : std::nullopt;
 }
 
 // The buckets around a place, and what of them lies around a point.
@@ -319,4 +335,4 @@ void OrderedPoints::for_each_neighborhood(
   });
 }
 
-}  // namespace drape::ingest
+}  // namespace drape
