@@ -24,34 +24,49 @@ bool beside(const Eigen::Vector3d& step, double distance, double voxel) {
   return step.squaredNorm() - distance * distance > aside * aside;
 }
 
-double hold_of(const CoarseScan& target, const std::vector<std::uint32_t>& on) {
-  const auto count = static_cast<double>(on.size());
+// Sums of squared distances along the normals that motions move what is shared by.
+struct Moves {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const std::uint32_t i : on) center += target.points()[i] / count;
+  double radius = 0;
+  Matrix6 squares = Matrix6::Zero();
+};
+
+Moves moves_of(const CoarseScan& target, const std::vector<std::uint32_t>& on) {
+  Moves moves;
+  const auto count = static_cast<double>(on.size());
+  for (const std::uint32_t i : on) moves.center += target.points()[i] / count;
   double squares = 0;
-  for (const std::uint32_t i : on) squares += (target.points()[i] - center).squaredNorm() / count;
-  const double radius = std::sqrt(squares);
-  if (!(radius > 0)) return 0;
-  Matrix6 moves = Matrix6::Zero();
+  for (const std::uint32_t i : on) squares += (target.points()[i] - moves.center).squaredNorm() / count;
+  moves.radius = std::sqrt(squares);
+  if (!(moves.radius > 0)) return moves;
   for (const std::uint32_t i : on) {
     Vector6 row;
-    row << ((target.points()[i] - center) / radius).cross(target.normals()[i]), target.normals()[i];
-    moves.noalias() += row * row.transpose();
+    row << ((target.points()[i] - moves.center) / moves.radius).cross(target.normals()[i]),
+        target.normals()[i];
+    moves.squares.noalias() += row * row.transpose();
   }
-  const Vector6 sizes = Eigen::SelfAdjointEigenSolver<Matrix6>(moves, Eigen::EigenvaluesOnly).eigenvalues();
+  return moves;
+}
+
+double hold_of(const CoarseScan& target, const std::vector<std::uint32_t>& on) {
+  const Moves moves = moves_of(target, on);
+  if (!(moves.radius > 0)) return 0;
+  const Vector6 sizes =
+      Eigen::SelfAdjointEigenSolver<Matrix6>(moves.squares, Eigen::EigenvaluesOnly).eigenvalues();
   return sizes[0] / sizes.mean();
 }
 
-}  // namespace
-
-CoarseFit measure_fit(const CoarseScan& source, const CoarseScan& target, const Rigid3& target_from_source,
-                      std::size_t stride) {
+struct Shared {
   std::size_t samples = 0;
-  std::size_t matched = 0;
-  double squares = 0;
-  std::vector<std::uint32_t> on;
+  std::vector<std::uint32_t> on;  // points of the target that samples lie on, one each
+  double squares = 0;             // of their distances
+};
+
+Shared shared_points(const CoarseScan& source, const CoarseScan& target, const Rigid3& target_from_source,
+                     std::size_t stride) {
+  Shared shared;
   for (std::size_t i = 0; i < source.size(); i += stride) {
-    ++samples;
+    ++shared.samples;
     const Eigen::Vector3d point = target_from_source * source.points()[i];
     const auto nearest = target.nearest(point);
     if (!nearest) continue;
@@ -61,13 +76,43 @@ CoarseFit measure_fit(const CoarseScan& source, const CoarseScan& target, const 
     if (std::abs(distance) > target.voxel() || beside(step, distance, target.voxel()) ||
         normal.dot(target_from_source.linear() * source.normals()[i]) < least_cosine)
       continue;
-    ++matched;
-    on.push_back(*nearest);
-    squares += distance * distance;
+    shared.on.push_back(*nearest);
+    shared.squares += distance * distance;
   }
-  if (matched == 0) return {};
-  return {static_cast<double>(matched) / static_cast<double>(samples),
-          std::sqrt(squares / static_cast<double>(matched)) / target.voxel(), hold_of(target, on)};
+  return shared;
+}
+
+}  // namespace
+
+CoarseFit measure_fit(const CoarseScan& source, const CoarseScan& target, const Rigid3& target_from_source,
+                      std::size_t stride) {
+  const Shared shared = shared_points(source, target, target_from_source, stride);
+  if (shared.on.empty()) return {};
+  const auto matched = static_cast<double>(shared.on.size());
+  return {matched / static_cast<double>(shared.samples), std::sqrt(shared.squares / matched) / target.voxel(),
+          hold_of(target, shared.on)};
+}
+
+SharedMotions shared_motions(const CoarseScan& source, const CoarseScan& target,
+                             const Rigid3& target_from_source) {
+  const Moves moves = moves_of(target, shared_points(source, target, target_from_source, 1).on);
+  SharedMotions result;
+  if (!(moves.radius > 0)) return result;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(moves.squares);
+  result.holds = solver.eigenvalues() / solver.eigenvalues().mean();
+  result.center = moves.center;
+  result.radius = moves.radius;
+  result.motions = solver.eigenvectors();
+  return result;
+}
+
+Rigid3 SharedMotions::along(int which, double length) const {
+  const Eigen::Vector3d rotation = length / radius * motions.col(which).head<3>();
+  const double angle = rotation.norm();
+  Rigid3 motion = Rigid3::Identity();
+  if (angle > 0) motion.linear() = Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+  motion.translation() = center + length * motions.col(which).tail<3>() - motion.linear() * center;
+  return motion;
 }
 
 Rigid3 fit_coarsely(const CoarseScan& source, const CoarseScan& target,

@@ -1,6 +1,8 @@
 // Two coarse scans laid on each other.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "coarse_scan.hpp"
 #include "drape/geometry/rigid3.hpp"
 
@@ -15,6 +17,23 @@ struct CoarseFit {
   /// 0 for a plane, a cylinder, a ball and all that slides on itself (Gelfand et al. 2003).
   double hold = 0;
 };
+
+/// The motions of one scan on another, by how firmly the surface that they share holds it against each.
+struct SharedMotions {
+  /// Of unit motions, weakest first, as CoarseFit::hold, which is the first of them. All zero where they
+  /// share nothing.
+  Eigen::Matrix<double, 6, 1> holds = Eigen::Matrix<double, 6, 1>::Zero();
+
+  /// The rigid motion that moves what they share by about `length`, in the target's frame.
+  [[nodiscard]] Rigid3 along(int which, double length) const;
+
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius = 1;
+  /// Columns: rotation vector about `center` times `radius`, and translation.
+  Eigen::Matrix<double, 6, 6> motions = Eigen::Matrix<double, 6, 6>::Identity();
+};
+[[nodiscard]] SharedMotions shared_motions(const CoarseScan& source, const CoarseScan& target,
+                                           const Rigid3& target_from_source);
 
 /// Of every stride-th point of `source`.
 [[nodiscard]] CoarseFit measure_fit(const CoarseScan& source, const CoarseScan& target,

@@ -16,6 +16,7 @@
 #include "patch_misfit.hpp"
 #include "placement.hpp"
 #include "scan_graph.hpp"
+#include "sliding.hpp"
 
 namespace drape::registration {
 namespace {
@@ -27,6 +28,8 @@ constexpr double least_edge_score = 0.01;
 constexpr double loop_tolerance_voxels = 4;
 // Refined and refuted, a pose bars what would lead there again.
 constexpr double refuted_voxels = 6;
+// How far off the middle between contradictions a pose may lie that they hold.
+constexpr double slack_of_held_voxels = 1;
 // Poses from a chain of pairs are a voxel or so off, and edges then hang over: more than in a pair.
 constexpr double most_contradiction_in_group = 0.05;
 // Refined by all points, the smoothed ones lie a few percent further apart than where they were fitted.
@@ -97,10 +100,10 @@ double contradiction_alone(const PairPose& found, const PairPose& refined) {
          refined.seen_through / std::max(refined.overlap, 1e-9) / doubtful_seen_through;
 }
 
-bool near_each_other(const Rigid3& a, const Rigid3& b, const CoarseScan& scan) {
+bool near_each_other(const Rigid3& a, const Rigid3& b, const CoarseScan& scan, double voxels) {
   double sum = 0;
   for (const Eigen::Vector3d& p : scan.points()) sum += (a * p - b * p).norm();
-  return sum < refuted_voxels * scan.voxel() * static_cast<double>(scan.size());
+  return sum < voxels * scan.voxel() * static_cast<double>(scan.size());
 }
 
 }  // namespace
@@ -248,8 +251,8 @@ std::optional<GlobalPlacement> GlobalSearch::place_otherwise(const std::vector<R
       if (!of_pair(r, k)) continue;
       const Rigid3 pose = pairs_[k].source == r.scan ? r.other_from_scan : r.other_from_scan.inverse();
       for (PairPose& found : found_[k]) {
-        if (found.against.empty() &&
-            near_each_other(found.target_from_source, pose, searched_[pairs_[k].source]->coarse))
+        if (found.against.empty() && near_each_other(found.target_from_source, pose,
+                                                     searched_[pairs_[k].source]->coarse, refuted_voxels))
           found.against = r.reason;
         other_way |= found.against.empty();
       }
@@ -316,6 +319,36 @@ std::string GlobalSearch::against_alone(const RefutedPair& pair, const PairPose&
   return {};
 }
 
+PairPose GlobalSearch::judge_refined(std::size_t which, std::size_t other,
+                                     const std::vector<PlacedScan>& placed) const {
+  const SearchedScan& source = *searched_[which];
+  const SearchedScan& target = *searched_[other];
+  const Rigid3 refined = placed[other].world_from_scan.inverse() * placed[which].world_from_scan;
+  const PairPose pose = judge_pair(source, target, refined, slack_of_refined);
+  if (!pose.slides()) return pose;
+  const auto slide = slide_to_middle(source, target, refined);
+  if (!slide || !near_each_other(slide->target_from_source, refined, source.coarse, slack_of_held_voxels))
+    return pose;
+  return judge_pair(source, target, refined, slack_of_refined, true);
+}
+
+std::optional<Rigid3> GlobalSearch::held_by_sight(std::size_t which,
+                                                  const std::vector<PlacedScan>& placed) const {
+  std::optional<std::size_t> only;
+  if (!searched_[which]) return std::nullopt;
+  for (std::size_t other = 0; other < placed.size(); ++other) {
+    if (other == which || !placed[other].placed || !searched_[other]) continue;
+    const Rigid3 other_from_this = placed[other].world_from_scan.inverse() * placed[which].world_from_scan;
+    const PairPose pose = judge_pair(*searched_[which], *searched_[other], other_from_this, slack_of_refined);
+    if (pose.against.empty() || (only && pose.slides())) return std::nullopt;
+    if (pose.slides()) only = other;
+  }
+  if (!only) return std::nullopt;
+  const auto slide = slide_to_middle(*searched_[which], *searched_[*only],
+                                     placed[*only].world_from_scan.inverse() * placed[which].world_from_scan);
+  return slide ? std::optional(placed[*only].world_from_scan * slide->target_from_source) : std::nullopt;
+}
+
 Objection GlobalSearch::objection(std::size_t which, const std::vector<PlacedScan>& placed) const {
   Objection closest{"it overlaps no other scan", {}};
   double most_overlap = 0;
@@ -323,11 +356,10 @@ Objection GlobalSearch::objection(std::size_t which, const std::vector<PlacedSca
   std::vector<PairPose> poses;
   for (std::size_t other = 0; other < placed.size(); ++other) {
     if (other == which || !placed[other].placed || !searched_[other]) continue;
-    const Rigid3 other_from_this = placed[other].world_from_scan.inverse() * placed[which].world_from_scan;
-    const PairPose pose = judge_pair(*searched_[which], *searched_[other], other_from_this, slack_of_refined);
+    const PairPose pose = judge_refined(which, other, placed);
     if (pose.contradiction() > most_contradiction_in_group) return {pose.against, {}};
     if (pose.against.empty()) {
-      bearing_out.push_back({which, other, other_from_this, {}});
+      bearing_out.push_back({which, other, pose.target_from_source, {}});
       poses.push_back(pose);
     }
     if (pose.overlap > most_overlap) {

@@ -61,6 +61,11 @@ class GlobalSearch {
   /// without doubt, or that one contradicts it.
   [[nodiscard]] Objection objection(std::size_t which, const std::vector<PlacedScan>& placed) const;
 
+  /// Where a scan that only one other bears out, and that by sight alone, lies between what contradicts it:
+  /// nothing else keeps refinement from moving it along what they share. Nothing for other scans.
+  [[nodiscard]] std::optional<Rigid3> held_by_sight(std::size_t which,
+                                                    const std::vector<PlacedScan>& placed) const;
+
   /// Poses are right to a fraction of it.
   [[nodiscard]] double voxel() const { return voxel_; }
 
@@ -79,6 +84,8 @@ class GlobalSearch {
   [[nodiscard]] std::string why_unplaced(std::size_t scan, std::size_t group, const ScanGraph& graph,
                                          const std::vector<SearchedPair>& pairs) const;
   [[nodiscard]] GlobalPlacement placement(const Joined& joined) const;
+  [[nodiscard]] PairPose judge_refined(std::size_t which, std::size_t other,
+                                       const std::vector<PlacedScan>& placed) const;
   [[nodiscard]] std::string against_alone(const RefutedPair& pair, const PairPose& refined) const;
   [[nodiscard]] bool of_pair(const RefutedPair& refuted, std::size_t pair) const;
 

@@ -213,6 +213,15 @@ Registration register_scans(std::span<const RangeScan> scans,
     at_start = poses_of(result.scans);
     fits = before = measure_fits(surfaces, at_start, mask_of(result.scans), reach);
     if (move) fits = refine(result, surfaces, start_reach, reach, before, found.world_scan, options, part);
+    bool moved = false;
+    for (std::size_t i = 0; global && move && i < scans.size(); ++i) {
+      if (!result.scans[i].placed || came_with_pose[i] != 0 || i == found.world_scan) continue;
+      if (const auto pose = global->held_by_sight(i, result.scans)) {
+        result.scans[i].world_from_scan = *pose;
+        moved = true;
+      }
+    }
+    if (moved) fits = measure_fits(surfaces, poses_of(result.scans), mask_of(result.scans), reach);
     return global ? review_found(result, *global, found, came_with_pose, fits, options) : Review();
   };
   Review review = settle(progress.part(0.6, 0.8));

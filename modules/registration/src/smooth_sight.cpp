@@ -14,6 +14,8 @@ constexpr std::ptrdiff_t margin = void_pixels + 2;
 constexpr double patch_radius_voxels = 2.5;
 constexpr double facing_cosine = 0.5;
 constexpr double agreeing_cosine = 0.5;
+constexpr double tolerance_voxels = 0.3;
+constexpr double tolerance_deviations = 0.8;
 
 Eigen::Vector3d mean_ray(const ScanSurface& surface) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -179,6 +181,18 @@ SightShares SmoothSight::compare(const CoarseScan& source, const Rigid3& viewer_
   return {shares.agreeing / count, shares.in_front / count, shares.in_void / count};
 }
 
+double SmoothSight::in_front_share(const CoarseScan& source, const Rigid3& viewer_from_source,
+                                   double tolerance) const {
+  if (pixels_.empty() || source.size() == 0) return 0;
+  std::size_t in_front = 0;
+  for (std::size_t i = 0; i < source.size(); ++i)
+    in_front += judge(viewer_from_source * source.points()[i],
+                      viewer_from_source.linear() * source.normals()[i], tolerance) == Seen::in_front
+                    ? 1
+                    : 0;
+  return static_cast<double>(in_front) / static_cast<double>(source.size());
+}
+
 // Whether most points near one are seen as it is.
 bool SmoothSight::mostly(const std::vector<Seen>& seen, Seen as, const CoarseScan& scan, std::size_t which) {
   const NeighborLists& neighbors = scan.neighbors();
@@ -191,6 +205,10 @@ bool SmoothSight::mostly(const std::vector<Seen>& seen, Seen as, const CoarseSca
     same += seen[neighbors.index[k]] == as ? 1 : 0;
   }
   return 2 * same > near;
+}
+
+double smooth_tolerance(const CoarseScan& a, const CoarseScan& b) {
+  return std::max(tolerance_voxels * a.voxel(), tolerance_deviations * std::max(a.noise(), b.noise()));
 }
 
 }  // namespace drape::registration

@@ -35,6 +35,10 @@ class SmoothSight {
   [[nodiscard]] SightShares compare(const CoarseScan& source, const Rigid3& viewer_from_source,
                                     double tolerance) const;
 
+  /// The share of the points that lie in front, whether or not those around them do.
+  [[nodiscard]] double in_front_share(const CoarseScan& source, const Rigid3& viewer_from_source,
+                                      double tolerance) const;
+
  private:
   struct Pixel {
     Eigen::Vector3f point = Eigen::Vector3f::Zero();  // from center_
@@ -66,5 +70,8 @@ class SmoothSight {
   std::ptrdiff_t rows_ = 0;
   std::vector<Pixel> pixels_;
 };
+
+/// How far across a surface smoothed points may lie off by what noise is left and by curvature.
+[[nodiscard]] double smooth_tolerance(const CoarseScan& a, const CoarseScan& b);
 
 }  // namespace drape::registration
