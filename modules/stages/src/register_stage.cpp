@@ -92,7 +92,7 @@ void run(const registration::RegisterOptions& options, pipeline::StageRun& run) 
 pipeline::Stage register_stage() {
   pipeline::Stage stage;
   stage.name = "register";
-  stage.version = 5;
+  stage.version = 6;
   stage.summary =
       "Puts all scans into one frame: by given poses, or by the shape of the surfaces; refined on the scans' "
       "overlaps.";

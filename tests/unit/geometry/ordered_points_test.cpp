@@ -73,6 +73,12 @@ TEST_P(OrderedPointsTest, NearestAndWithinAreThoseOfBruteForce) {
     found.resize(ordered.nearest(query, found));
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
     expect_near(sorted_distances(found), nearest_distances(points, query, 12));
+    for (const double radius : {0.05, 0.5, 400.0}) {
+      const double least = nearest_distances(points, query, 1)[0];
+      const auto nearest = ordered.nearest_within(query, radius);
+      ASSERT_EQ(nearest.has_value(), least < radius) << least;
+      if (nearest) expect_near({std::sqrt(static_cast<double>(nearest->squared_distance()))}, {least});
+    }
     std::set<std::uint32_t> near;
     ordered.within(query, 0.5, [&](std::uint32_t i) { near.insert(ordered.original(i)); });
     std::set<std::uint32_t> expected;
