@@ -88,4 +88,15 @@ bool Outline::missed(const Eigen::Vector3d& point, const Eigen::Vector3d& normal
   return viewer_->field_of_view().contains(point);
 }
 
+double Outline::missed_share(std::span<const Eigen::Vector3d> points,
+                             std::span<const Eigen::Vector3d> normals, const Rigid3& viewer_from_points,
+                             std::size_t stride) const {
+  if (cells_.empty() || points.empty()) return 0;
+  std::size_t count = 0;
+  std::size_t missed_count = 0;
+  for (std::size_t i = 0; i < points.size(); i += stride, ++count)
+    missed_count += missed(viewer_from_points * points[i], viewer_from_points.linear() * normals[i]) ? 1 : 0;
+  return static_cast<double>(missed_count) / static_cast<double>(count);
+}
+
 }  // namespace drape::registration

@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "drape/geometry/rigid3.hpp"
 #include "scan_surface.hpp"
 #include "view_projection.hpp"
 
@@ -18,10 +20,13 @@ class Outline {
   /// Refers to the surface. Nothing is void where the field of view is unknown.
   explicit Outline(const ScanSurface& viewer);
 
-  [[nodiscard]] bool known() const { return !cells_.empty(); }
   /// Whether a point (with its normal, in the viewer's frame) faces the viewer from the void: it should have
   /// been seen.
   [[nodiscard]] bool missed(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+  /// The share of every stride-th of such points that it missed; 0 where nothing can be said.
+  [[nodiscard]] double missed_share(std::span<const Eigen::Vector3d> points,
+                                    std::span<const Eigen::Vector3d> normals,
+                                    const Rigid3& viewer_from_points, std::size_t stride) const;
 
  private:
   enum : std::uint8_t { enclosed, near, outside };

@@ -34,6 +34,10 @@ class ScanSurface {
   /// The same where the spacing and the morton_order of the points are known.
   ScanSurface(const RangeScan& scan, double scan_spacing, std::span<const std::uint32_t> order,
               std::span<const Eigen::Vector3f> normals);
+  // Parts of it refer to its points, which stay where they are when it is moved, but not when it is copied.
+  ScanSurface(ScanSurface&&) = default;
+  ScanSurface(const ScanSurface&) = delete;
+  ScanSurface& operator=(const ScanSurface&) = delete;
 
   [[nodiscard]] std::size_t size() const { return ordered_.size(); }
   [[nodiscard]] const std::vector<Eigen::Vector3d>& points() const { return ordered_.points(); }

@@ -11,8 +11,6 @@
 namespace drape::registration {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
 constexpr std::size_t outline_samples = 4000;
 constexpr double weak = 0.025;  // held less, a motion is one to slide along
 constexpr double step_voxels = 0.25;
@@ -24,14 +22,9 @@ constexpr double most_play_voxels = 2;
 constexpr double most_at_start = 0.12;
 constexpr double most_in_the_middle = 0.01;
 
-double missed_share(const ScanSurface& scan, const Outline& viewer, const Rigid3& viewer_from_scan) {
-  std::size_t missed = 0;
-  const std::vector<std::uint32_t> samples = scan.sample(outline_samples);
-  for (const std::uint32_t i : samples)
-    missed +=
-        viewer.missed(viewer_from_scan * scan.points()[i], viewer_from_scan.linear() * scan.normals()[i]) ? 1
-                                                                                                          : 0;
-  return static_cast<double>(missed) / static_cast<double>(samples.size());
+double missed_share(const Outline& viewer, const ScanSurface& scan, const Rigid3& viewer_from_scan) {
+  const std::size_t stride = std::max<std::size_t>(1, scan.size() / outline_samples);
+  return viewer.missed_share(scan.points(), scan.normals(), viewer_from_scan, stride);
 }
 
 // Points by themselves, not in patches as where a pose is judged: ends are thin.
@@ -39,8 +32,8 @@ double contradiction_of(const SearchedScan& source, const SearchedScan& target,
                         const Rigid3& target_from_source) {
   const double tolerance = smooth_tolerance(source.coarse, target.coarse);
   const Rigid3 source_from_target = target_from_source.inverse();
-  return missed_share(*source.surface, target.outline, target_from_source) +
-         missed_share(*target.surface, source.outline, source_from_target) +
+  return missed_share(target.outline, *source.surface, target_from_source) +
+         missed_share(source.outline, *target.surface, source_from_target) +
          target.smooth_sight.in_front_share(source.coarse, target_from_source, tolerance) +
          source.smooth_sight.in_front_share(target.coarse, source_from_target, tolerance);
 }
