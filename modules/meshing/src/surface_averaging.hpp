@@ -14,7 +14,8 @@ namespace drape::meshing {
 /// The samples, which have slopes, after rounds of averaging over neighbours ever farther off, more rounds
 /// for more noise and none for little: 3 x 3 weighted means at strides of the lattice (an edge-avoiding
 /// wavelet, Dammertz et al. 2010; without a lattice that many more rounds over the next neighbours instead).
-/// What is averaged is the distance from the sample's own tangent plane, and the slopes. A neighbour's weight
+/// What is averaged is the distance from the sample's own tangent plane, under heavy noise blended with that
+/// from the neighbour's, so that round shapes do not shrink; and the slopes. A neighbour's weight
 /// falls to 0 as its normal differs by more than the normals' noise, as one lies off the other's plane by
 /// more than the depths', and as it is far off in space. At last what the rounds took away is averaged by the
 /// same weights and given back ("twicing", Tukey 1977), which restores shape but little noise. `noise` is the

@@ -112,6 +112,15 @@ TEST(Fusion, HeavyNoiseIsAveragedOverMoreOfTheSurface) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(mesh.vertices.size())), 0.28 * setup.noise);
 }
 
+TEST(Fusion, HeavyNoiseDoesNotShrinkWhatIsRound) {
+  LatticeSetup setup;
+  setup.noise = 1;
+  const TriangleMesh mesh = fuse(scans_of(test::sphere_field(20), six_sides(), setup)).mesh;
+  double sum = 0;
+  for (const Vector3d& p : mesh.vertices) sum += p.norm() - 20;
+  EXPECT_NEAR(sum / static_cast<double>(mesh.vertices.size()), 0, 0.03);
+}
+
 TEST(Fusion, SharpEdgesOfABoxStayClosed) {
   const TriangleMesh mesh = fuse(scans_of(test::box_field({15, 12, 10}), six_sides())).mesh;
   expect_sound(mesh);
