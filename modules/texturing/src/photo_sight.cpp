@@ -14,8 +14,11 @@ namespace drape::texturing {
 namespace {
 
 constexpr int largest_depth_map_px = 8192;
-constexpr double steepest_slope = 10;    // tangent of the incidence up to which the tolerance grows
-constexpr double clear_slope = 1;        // beyond the tolerance of this one a ray decides
+constexpr double steepest_slope = 10;  // tangent of the incidence up to which the tolerance grows
+constexpr double clear_slope = 1;      // beyond the tolerance of this one a ray decides
+// Seen more obliquely, a surface recedes within a pixel by more than the gap behind what hides it just so,
+// and the pixels round a point may all lie behind its plane: where they do not lie on it, a ray decides.
+constexpr double surely_told_cosine = 0.5;
 constexpr int most_plain_pixels = 4096;  // of the depth picture, looked at for one triangle
 
 // Tangent of the incidence.
@@ -57,7 +60,8 @@ std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3
   const bool perspective = camera_.projection == Camera::Projection::perspective;
   if (perspective && !(seen.depth > 0)) return trust::none;
   if (!holds(seen.pixel)) return trust::none;
-  const double cosine = normal.dot(camera_.towards_camera(point));
+  const Eigen::Vector3d towards = camera_.towards_camera(point);
+  const double cosine = normal.dot(towards);
   if (!(cosine >= least_cosine_)) return trust::none;
   const std::uint8_t level = trust_at(warp_(seen.pixel));
   if (level == trust::none) return trust::none;
@@ -66,7 +70,8 @@ std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3
   const double pixel_size = pixel_size_at(seen.depth);
   const double slope = slope_of(cosine);
   const InFront front = in_front(seen, point, normal, face_normal, least_tolerance_at(pixel_size, cosine),
-                                 tolerance_ + pixel_size * (0.5 + slope));
+                                 tolerance_ + pixel_size * (0.5 + slope),
+                                 std::min(cosine, face_normal.dot(towards)) < surely_told_cosine);
   if (front == InFront::something) return trust::none;
   if (front == InFront::perhaps && ray_blocked(point, pixel_size + tolerance_ * (1 + slope)))
     return trust::none;
@@ -86,13 +91,16 @@ bool PhotoSight::ray_blocked(const Eigen::Vector3d& point, double tolerance) con
 // By the larger tolerance surely, by the smaller one perhaps.
 PhotoSight::InFront PhotoSight::in_front(const Camera::Projected& seen, const Eigen::Vector3d& point,
                                          const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
-                                         double least_tolerance, double tolerance) const {
+                                         double least_tolerance, double tolerance, bool oblique) const {
   InFront found = InFront::nothing;
   const std::array<Plane, 2> planes = {plane_of(point, normal), plane_of(point, face_normal)};
   const DepthPixels round = pixels_round(seen.pixel, seen.pixel);
   for (int y = round.top; y < round.bottom; ++y)
     for (int x = round.left; x < round.right; ++x) {
       const double depth = depth_.at(x, y);
+      if (oblique && !is_on(planes[0], x, y, depth, least_tolerance) &&
+          !is_on(planes[1], x, y, depth, least_tolerance))
+        found = InFront::perhaps;
       if (!(depth < seen.depth + tolerance)) continue;  // behind, or nothing there
       if (!is_before(planes[0], x, y, depth + least_tolerance) ||
           !is_before(planes[1], x, y, depth + least_tolerance))
@@ -145,9 +153,14 @@ bool PhotoSight::sees_plainly(const std::array<Eigen::Vector3d, 3>& corners,
       if (trusted_.at(x, y) != trust::full) return false;
   const double tolerance = least_tolerance_at(pixel_size_at(nearest), std::min(1.0, most));
   const Plane plane = plane_of(corners[0], face_normal);
+  for (const Eigen::Vector3d& t : towards) least = std::min(least, face_normal.dot(t));
+  const bool oblique = least < surely_told_cosine;
   for (int y = round.top; y < round.bottom; ++y)
-    for (int x = round.left; x < round.right; ++x)
-      if (is_before(plane, x, y, depth_.at(x, y) + tolerance)) return false;
+    for (int x = round.left; x < round.right; ++x) {
+      const double depth = depth_.at(x, y);
+      if (oblique ? !is_on(plane, x, y, depth, tolerance) : is_before(plane, x, y, depth + tolerance))
+        return false;
+    }
   return true;
 }
 
@@ -167,6 +180,10 @@ bool PhotoSight::is_before(const Plane& p, int x, int y, double depth) const {
   return camera_.projection == Camera::Projection::perspective
              ? lean > 0 && depth * lean < p.offset
              : p.slope > 0 && depth * p.slope + lean < p.offset;
+}
+
+bool PhotoSight::is_on(const Plane& plane, int x, int y, double depth, double tolerance) const {
+  return is_before(plane, x, y, depth - tolerance) && !is_before(plane, x, y, depth + tolerance);
 }
 
 // Those that bilinear filtering blends anywhere in a box of photo pixels, and one more on each side.

@@ -75,12 +75,13 @@ class PhotoSight {
   };
   [[nodiscard]] Plane plane_of(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
   [[nodiscard]] bool is_before(const Plane& plane, int x, int y, double depth) const;
+  [[nodiscard]] bool is_on(const Plane& plane, int x, int y, double depth, double tolerance) const;
   [[nodiscard]] DepthPixels pixels_round(const Eigen::Vector2d& least, const Eigen::Vector2d& most) const;
   [[nodiscard]] double pixel_size_at(double depth) const;
   [[nodiscard]] double least_tolerance_at(double pixel_size, double cosine) const;
   [[nodiscard]] InFront in_front(const Camera::Projected& seen, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
-                                 double least_tolerance, double tolerance) const;
+                                 double least_tolerance, double tolerance, bool oblique) const;
   [[nodiscard]] bool ray_blocked(const Eigen::Vector3d& point, double tolerance) const;
 
   Camera camera_;
