@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "drape/geometry/spatial_order.hpp"
 #include "drape/ingest/point_spacing.hpp"
@@ -95,10 +96,12 @@ std::optional<std::uint32_t> ScanSurface::nearest(const Eigen::Vector3d& point, 
                                                   double local_reach) const {
   // Less than a spacing away a point in sight is as good as the nearest, and much faster found.
   const double near = std::min(spacing_ * scale, local_reach);
-  if (const auto seen = pixels_->nearest(point); seen && seen->squared_distance < near * near)
-    return seen->index;
-  const auto found = ordered_.nearest_within(point, local_reach);
-  return found ? std::optional(found->index()) : std::nullopt;
+  const auto seen = pixels_->nearest(point);
+  if (seen && seen->squared_distance < near * near) return seen->index;
+  const double seen_at = seen ? std::sqrt(seen->squared_distance) : std::numeric_limits<double>::infinity();
+  if (const auto found = ordered_.nearest_within(point, std::min(local_reach, seen_at)))
+    return found->index();
+  return seen_at < local_reach ? std::optional(seen->index) : std::nullopt;
 }
 
 std::optional<SurfaceMatch> ScanSurface::match(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,

@@ -62,9 +62,9 @@ std::optional<Trough> trough_round_zero(const std::function<double(int)>& value)
     least = std::min({least, at(begin), at(end)});
   }
   // Where it came lower later, ends passed before may lie nearer.
-  int bottom = std::min_element(known.begin(), known.end(), [](const auto& a, const auto& b) {
-                 return a.second < b.second;
-               })->first;
+  const int bottom = std::min_element(known.begin(), known.end(), [](const auto& a, const auto& b) {
+                       return a.second < b.second;
+                     })->first;
   const double limit = least + rise;
   const auto crossing = [&](int direction) {
     int step = bottom;
