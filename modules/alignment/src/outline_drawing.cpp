@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace drape::alignment {
 namespace {
@@ -54,9 +55,27 @@ void OutlineDrawing::draw(const OutlineMesh& mesh, const OutlinePose& pose, cons
     stencil_.clear();
   if (with_rim || mesh.closed) find_sides(mesh);
   draw_faces(places_, mesh.closed ? seen_ : mesh.faces, stencil_);
-  gaps_ = mesh.open ? enclosed_gaps(stencil_) : BitImage();
+  find_gaps(mesh, pose, window);
   rim_.clear();
   if (with_rim) find_rim(mesh, pose, window);
+}
+
+// What the caps cover beside the mesh, and what both enclose.
+void OutlineDrawing::find_gaps(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window) {
+  if (!mesh.open) {
+    gaps_ = BitImage();
+    return;
+  }
+  for (const Eigen::Vector3d& x : mesh.border_middles)
+    places_.push_back(window.from_photo(pose.place(pose.rotation * x)));
+  capped_ = stencil_;
+  draw_faces(places_, mesh.caps, capped_);
+  places_.resize(mesh.vertices.size());
+  gaps_ = enclosed_gaps(capped_);
+  const std::span<const std::uint64_t> capped = std::as_const(capped_).words();
+  const std::span<const std::uint64_t> covered = std::as_const(stencil_).words();
+  const std::span<std::uint64_t> gaps = gaps_.words();
+  for (std::size_t i = 0; i < gaps.size(); ++i) gaps[i] |= capped[i] & ~covered[i];
 }
 
 // Which side of a face is seen is the sense of its projection, exactly, with perspective and all.
@@ -97,7 +116,7 @@ void OutlineDrawing::sample_edge(const OutlineMesh& mesh, const OutlineEdge& edg
   const double length = (places_[edge.to] - places_[edge.from]).norm();
   if (!(length > 0)) return;
   RimSample sample;
-  sample.border = edge.other == OutlineEdge::no_face;
+  sample.border = edge.border;
   sample.straight = length >= straight_px;
   const Eigen::Vector2d normal = normal_of(mesh, edge);
   const int count = std::max(1, static_cast<int>(std::ceil(length / sample_spacing_px)));
@@ -134,6 +153,7 @@ std::vector<PixelCrossing> OutlineDrawing::crossings(const OutlineMesh& mesh, co
         PixelCrossing crossing;
         crossing.in_row = in_row;
         crossing.line = line;
+        crossing.border = edge.border;
         crossing.before = center_at_or_after(x) - 1;
         crossing.object_first = set_in(stencil_, in_row, crossing.before, line);
         if (crossing.object_first == set_in(stencil_, in_row, crossing.before + 1, line)) continue;

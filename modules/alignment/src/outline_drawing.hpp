@@ -47,6 +47,7 @@ struct PixelCrossing {
   int before = 0;  // column (in a row) or row (in a column) of the first of the two pixels
   int line = 0;    // the row or column that both are in
   bool object_first = false;
+  bool border = false;  // of the mesh, where it is open
 };
 
 /// Buffers are kept from one pose to the next.
@@ -59,12 +60,13 @@ class OutlineDrawing {
   [[nodiscard]] const std::vector<RimSample>& rim() const { return rim_; }
   /// All of them, of what draw() was called with last; it must have been with the rim.
   [[nodiscard]] std::vector<PixelCrossing> crossings(const OutlineMesh& mesh, const OutlinePose& pose) const;
-  /// What an open mesh encloses and does not cover: maybe holes of the scan. Empty for a closed mesh, whose
-  /// holes are the object's own.
+  /// What an open mesh and the caps over its borders enclose and the mesh does not cover: maybe holes of the
+  /// scan. Empty for a closed mesh, whose holes are the object's own.
   [[nodiscard]] const BitImage& gaps() const { return gaps_; }
 
  private:
   void find_sides(const OutlineMesh& mesh);
+  void find_gaps(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window);
   void find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window);
   void sample_edge(const OutlineMesh& mesh, const OutlineEdge& edge, const OutlinePose& pose,
                    const Window& window);
@@ -78,6 +80,7 @@ class OutlineDrawing {
   std::vector<Face> seen_;
   BitImage stencil_;
   BitImage gaps_;
+  BitImage capped_;
   std::vector<RimSample> rim_;
 };
 

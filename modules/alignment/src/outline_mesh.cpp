@@ -5,6 +5,7 @@
 #include <bit>
 #include <unordered_map>
 
+#include "drape/base/disjoint_sets.hpp"
 #include "drape/base/error.hpp"
 #include "drape/geometry/bounding_box.hpp"
 
@@ -66,6 +67,7 @@ void add_edges(OutlineMesh& mesh) {
       const bool pair = end - i == 2;
       for (auto half = i; half != end; half = pair ? end : half + 1) {
         OutlineEdge edge{half->rising ? v : half->greater, half->rising ? half->greater : v, half->face};
+        edge.border = end - i == 1;
         if (pair) {
           edge.other = (half + 1)->face;
           edge.turned = half->rising == (half + 1)->rising;
@@ -76,6 +78,34 @@ void add_edges(OutlineMesh& mesh) {
       i = end;
     }
   }
+}
+
+// Borders that meet in a vertex get one cap.
+void add_caps(OutlineMesh& mesh) {
+  if (!mesh.open) return;
+  DisjointSets borders(mesh.vertices.size());
+  for (const OutlineEdge& edge : mesh.edges)
+    if (edge.border) borders.join(edge.from, edge.to);
+  std::unordered_map<std::uint32_t, std::uint32_t> numbers;  // of the borders, by their first vertices
+  std::vector<double> lengths;
+  for (const OutlineEdge& edge : mesh.edges) {
+    if (!edge.border) continue;
+    const auto number = static_cast<std::uint32_t>(lengths.size());
+    const auto [border, is_new] = numbers.try_emplace(borders.find(edge.from), number);
+    if (is_new) {
+      lengths.push_back(0);
+      mesh.border_middles.emplace_back(Eigen::Vector3d::Zero());
+    }
+    const Eigen::Vector3d& a = mesh.vertices[edge.from];
+    const Eigen::Vector3d& b = mesh.vertices[edge.to];
+    const double length = (b - a).norm();
+    lengths[border->second] += length;
+    mesh.border_middles[border->second] += length / 2 * (a + b);
+    mesh.caps.push_back(
+        {edge.to, edge.from, static_cast<std::uint32_t>(mesh.vertices.size()) + border->second});
+  }
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    if (lengths[i] > 0) mesh.border_middles[i] /= lengths[i];
 }
 
 }  // namespace
@@ -104,6 +134,7 @@ OutlineMesh outline_mesh(const TriangleMesh& mesh, const UnitSphere& sphere) {
       result.faces.push_back(joined);
   }
   add_edges(result);
+  add_caps(result);
   result.closed = std::all_of(result.edges.begin(), result.edges.end(), [](const OutlineEdge& edge) {
     return edge.other != OutlineEdge::no_face && !edge.turned;
   });

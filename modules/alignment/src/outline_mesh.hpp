@@ -25,6 +25,7 @@ struct OutlineEdge {
   std::uint32_t to = 0;
   std::uint32_t face = 0;         // runs along the edge from `from` to `to`
   std::uint32_t other = no_face;  // no_face at a border, and where more than two faces meet
+  bool border = false;            // it has one face
   bool turned = false;            // the other face runs along it the same way: one of the two is inside out
 };
 
@@ -33,6 +34,10 @@ struct OutlineMesh {
   std::vector<Eigen::Vector3d> vertices;  // in the unit sphere
   std::vector<Face> faces;
   std::vector<OutlineEdge> edges;
+  /// A fan over each border, from its middle: about where the surface is that the scanner did not see.
+  /// Corners beyond `vertices` are of `border_middles`.
+  std::vector<Face> caps;
+  std::vector<Eigen::Vector3d> border_middles;
   bool open = false;  // an edge has one face
   /// Every edge has two faces that run along it in opposite ways: what faces the camera covers all that the
   /// mesh does.

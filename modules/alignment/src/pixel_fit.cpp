@@ -54,7 +54,9 @@ std::optional<Interval> interval_of(const PixelCrossing& crossing, const Stencil
 bool at_hole(const PixelCrossing& crossing, const OutlineDrawing& drawing, const StencilLevel& level) {
   if (drawing.gaps().words().empty()) return false;
   const int beside = crossing.object_first ? crossing.before + 1 : crossing.before;
-  return set_in(drawing.gaps(), crossing, beside) && set_in(level.object, crossing, beside);
+  const int further = crossing.object_first ? crossing.before + 3 : crossing.before - 2;
+  return (set_in(drawing.gaps(), crossing, beside) && set_in(level.object, crossing, beside)) ||
+         (crossing.border && set_in(level.object, crossing, further));
 }
 
 NormalEquations equations(const std::vector<PixelCrossing>& crossings, const OutlineDrawing& drawing,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drape/base/parallel.hpp"
 #include "outline_equations.hpp"
 
 namespace drape::alignment {
@@ -89,6 +90,20 @@ RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start, const
     pose = within_lens(moved(pose, step), lens);
   }
   return best;
+}
+
+std::vector<RefinedPose> refine_poses(const OutlineMesh& mesh, const std::vector<OutlinePose>& starts,
+                                      const Evidence& evidence, const LensPrior& lens,
+                                      const RefinementPlan& plan, const Progress& progress) {
+  std::vector<RefinedPose> refined(starts.size());
+  parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    OutlineDrawing drawing;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (progress.stop_requested()) return;
+      refined[i] = refine_pose(mesh, starts[i], evidence, lens, plan, drawing);
+    }
+  });
+  return refined;
 }
 
 }  // namespace drape::alignment

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "drape/base/progress.hpp"
 #include "evidence.hpp"
 #include "outline_mesh.hpp"
 #include "outline_pose.hpp"
@@ -58,6 +59,12 @@ struct RefinedPose {
 [[nodiscard]] RefinedPose refine_pose(const OutlineMesh& mesh, const OutlinePose& start,
                                       const Evidence& evidence, const LensPrior& lens,
                                       const RefinementPlan& plan, OutlineDrawing& drawing);
+
+/// Each start by itself, on all threads. Where `progress` was stopped the rest is left empty.
+[[nodiscard]] std::vector<RefinedPose> refine_poses(const OutlineMesh& mesh,
+                                                    const std::vector<OutlinePose>& starts,
+                                                    const Evidence& evidence, const LensPrior& lens,
+                                                    const RefinementPlan& plan, const Progress& progress);
 
 /// With what the lens fixes of it.
 [[nodiscard]] OutlinePose within_lens(OutlinePose pose, const LensPrior& lens);

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "chamfer_search.hpp"
+#include "distinct_poses.hpp"
 #include "drape/base/parallel.hpp"
 #include "view_atlas.hpp"
 
@@ -22,9 +23,6 @@ constexpr std::size_t glanced_views = 10;  // one of so many tells whether a fra
 constexpr double usual_perspective = 0.2;
 constexpr double distinct_rad = 10 * radians;
 constexpr double distinct_match_rad = 6 * radians;  // of candidates of the coarse search
-constexpr double same_pose_rad = 3 * radians;       // of refined ones
-constexpr double same_place = 0.5;                  // in radii of the mesh
-constexpr double same_size = 0.5;                   // of the logarithm
 constexpr std::size_t chamfer_matches_kept = 2500;
 constexpr double principal_point_gain = 200;  // of chi squared
 
@@ -51,12 +49,6 @@ std::vector<int> best_rolls(const std::array<float, polar_angles>& scores) {
   }
   if (rolls.empty()) rolls.push_back(0);
   return rolls;
-}
-
-// Whether two poses show the body as the same thing in the photo, which ways ever they turn it.
-bool in_one_place(const OutlinePose& a, const OutlinePose& b) {
-  return (a.shift - b.shift).norm() < same_place * std::min(a.scale, b.scale) &&
-         std::abs(std::log(a.scale / b.scale)) < same_size;
 }
 
 class CoarseSearch {
@@ -215,56 +207,9 @@ std::vector<OutlinePose> CoarseSearch::distinct(const std::vector<OutlinePose>& 
   return starts;
 }
 
-// Best first, without poses that another is the better version of, and no more than `most`.
-std::vector<RefinedPose> best_of(std::vector<RefinedPose> poses, std::size_t most) {
-  std::stable_sort(poses.begin(), poses.end(), [](const RefinedPose& a, const RefinedPose& b) {
-    return a.agreement.score() > b.agreement.score();
-  });
-  std::vector<RefinedPose> kept;
-  for (RefinedPose& pose : poses) {
-    if (kept.size() == most) break;
-    const auto seen = std::find_if(kept.begin(), kept.end(), [&](const RefinedPose& better) {
-      return angle_between(better.pose.rotation, pose.pose.rotation) < same_pose_rad &&
-             in_one_place(better.pose, pose.pose);
-    });
-    if (seen != kept.end() && pose.agreement.closeness() > seen->agreement.closeness()) *seen = pose;
-    if (seen == kept.end()) kept.push_back(std::move(pose));
-  }
-  return kept;
-}
-
 void drop_beaten(std::vector<RefinedPose>& sorted, double margin) {
   std::erase_if(sorted, [best = sorted.empty() ? 0.0 : sorted.front().agreement.score(),
                          margin](const RefinedPose& pose) { return pose.agreement.score() < best - margin; });
-}
-
-class Refinement {
- public:
-  Refinement(const Evidence& evidence, const SearchSettings& settings)
-      : evidence_(evidence), settings_(settings) {}
-
-  [[nodiscard]] std::vector<RefinedPose> all(const OutlineMesh& mesh, const std::vector<OutlinePose>& starts,
-                                             const RefinementPlan& plan, const Progress& progress) const {
-    std::vector<RefinedPose> refined(starts.size());
-    parallel_for(starts.size(), 1, [&](std::size_t begin, std::size_t end) {
-      OutlineDrawing drawing;
-      for (std::size_t i = begin; i < end; ++i) {
-        if (progress.stop_requested()) return;
-        refined[i] = refine_pose(mesh, starts[i], evidence_, settings_.lens, plan, drawing);
-      }
-    });
-    return refined;
-  }
-
- private:
-  const Evidence& evidence_;
-  const SearchSettings& settings_;
-};
-
-std::vector<OutlinePose> poses_of(const std::vector<RefinedPose>& refined) {
-  std::vector<OutlinePose> poses;
-  for (const RefinedPose& r : refined) poses.push_back(r.pose);
-  return poses;
 }
 
 // Under a long lens a body with a plane of symmetry of normal n looks the same from D R (I - 2 n n^T), D =
@@ -332,7 +277,10 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
                               const SearchSettings& settings, const Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   PoseSearchResult result;
-  const Refinement refinement(evidence, settings);
+  const auto refined_all = [&](const OutlineMesh& mesh, const std::vector<OutlinePose>& starts,
+                               const RefinementPlan& how) {
+    return refine_poses(mesh, starts, evidence, settings.lens, how, progress);
+  };
   const int last = evidence.levels() - 1;
   const SearchPlan plan = evidence.plan();
   const RefinementPlan glance{0, 5, plan.glance_reach_px, 6, 1.5, false};
@@ -342,7 +290,7 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
 
   std::vector<RefinedPose> refined;
   if (!settings.starts.empty()) {
-    refined = refinement.all(meshes.coarse, settings.starts, coarse, progress);
+    refined = refined_all(meshes.coarse, settings.starts, coarse);
   } else {
     const CoarseSearch search(meshes, evidence, settings);
     progress.update(0.2, "comparing views");
@@ -352,36 +300,36 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
       result.statistics.candidates_listed = static_cast<int>(search.listed(effort));
       result.statistics.candidates_tried += static_cast<int>(starts.size());
       std::vector<RefinedPose> glanced =
-          best_of(refinement.all(meshes.coarse, starts, effort == 0 ? glance : close_glance, progress),
-                  effort == 0 ? plan.kept_after_glance : plan.kept_with_effort);
+          distinct_poses(refined_all(meshes.coarse, starts, effort == 0 ? glance : close_glance),
+                         effort == 0 ? plan.kept_after_glance : plan.kept_with_effort);
       progress.update(effort == 0 ? 0.4 : 0.6, "refining");
-      std::vector<RefinedPose> settled = refinement.all(meshes.coarse, poses_of(glanced), coarse, progress);
+      std::vector<RefinedPose> settled = refined_all(meshes.coarse, poses_of(glanced), coarse);
       progress.update(effort == 0 ? 0.5 : 0.7, "refining");
       refined.insert(refined.end(), settled.begin(), settled.end());
-      refined = best_of(std::move(refined), plan.kept_with_effort);
+      refined = distinct_poses(std::move(refined), plan.kept_with_effort);
       if (!refined.empty() && refined.front().agreement.explained() > plan.good_score) break;
     }
   }
   result.statistics.coarse_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (settings.starts.empty()) {
-    refined = best_of(std::move(refined), plan.kept_for_middle);
+    refined = distinct_poses(std::move(refined), plan.kept_for_middle);
     const std::vector<OutlinePose> twins =
-        with_mirror_twins(poses_of(best_of(refined, 2)), principal_axes_of(meshes.coarse));
-    std::vector<RefinedPose> more = refinement.all(meshes.coarse, twins, coarse, progress);
+        with_mirror_twins(poses_of(distinct_poses(refined, 2)), principal_axes_of(meshes.coarse));
+    std::vector<RefinedPose> more = refined_all(meshes.coarse, twins, coarse);
     refined.insert(refined.end(), more.begin(), more.end());
     if (settings.allowed)
       std::erase_if(refined, [&](const RefinedPose& r) { return !settings.allowed(r.pose); });
   }
-  refined = best_of(std::move(refined), plan.kept_for_middle);
+  refined = distinct_poses(std::move(refined), plan.kept_for_middle);
   drop_beaten(refined, plan.coarse_margin);
   progress.update(0.75, "refining");
-  refined = best_of(refinement.all(meshes.middle, poses_of(refined), middle, progress), plan.kept_for_full);
+  refined = distinct_poses(refined_all(meshes.middle, poses_of(refined), middle), plan.kept_for_full);
   drop_beaten(refined, plan.middle_margin);
   progress.update(0.85, "refining");
   for (int level = std::min(2, last); level <= last; ++level) {
     const RefinementPlan fine{level, 8, 5, 1.5, 1.0, false};
-    refined = best_of(refinement.all(meshes.full, poses_of(refined), fine, progress), plan.kept_for_full);
+    refined = distinct_poses(refined_all(meshes.full, poses_of(refined), fine), plan.kept_for_full);
   }
   if (!refined.empty() && !settings.principal_point_known && !settings.lens.orthographic)
     refined.front() = with_free_principal_point(meshes.full, refined.front(), evidence, settings.lens);

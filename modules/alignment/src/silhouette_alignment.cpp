@@ -11,10 +11,12 @@
 #include "color_evidence.hpp"
 #include "color_occlusion.hpp"
 #include "color_verdict.hpp"
+#include "distinct_poses.hpp"
 #include "drape/alignment/overlap.hpp"
 #include "drape/base/error.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "image_stencil.hpp"
+#include "near_search.hpp"
 #include "outline_figures.hpp"
 #include "photo_plane.hpp"
 #include "pose_search.hpp"
@@ -30,6 +32,7 @@ namespace {
 constexpr double radians = std::numbers::pi / 180;
 constexpr int coarse_faces = 1500;
 constexpr int middle_faces = 8000;
+constexpr double fits_well = 0.965;  // of an outline: with less there may be a better pose near by
 constexpr int least_object_px = 8;
 constexpr double explained_weight = 0.5;  // of the look inside, against the outline's score
 
@@ -212,11 +215,24 @@ Alignment align_silhouette(const SoughtMesh& sought, const PhotoEvidence& eviden
   if (const auto* stencil = dynamic_cast<const StencilEvidence*>(outline.get()); stencil && !poses.empty()) {
     std::optional<PhotoInside> inside;
     if (evidence.photo != nullptr) inside.emplace(PhotoInside{*evidence.photo, plane, mesh.colors});
-    SettledPoses settled = settled_poses(poses, meshes.full, *stencil, settings.lens, inside, progress);
-    poses = std::move(settled.poses);
-    figures = outline_figures(meshes.full, poses.front().pose, *stencil, settled.noise,
-                              object_extent(evidence.stencil));
-    figures.by_photo = settled.shaded;
+    const auto settle = [&] {
+      SettledPoses settled = settled_poses(poses, meshes.full, *stencil, settings.lens, inside, progress);
+      poses = std::move(settled.poses);
+      figures = outline_figures(meshes.full, poses.front().pose, *stencil, settled.noise,
+                                object_extent(evidence.stencil));
+      figures.by_photo = settled.shaded;
+    };
+    settle();
+    if (figures.fits < fits_well) {
+      std::vector<RefinedPose> near =
+          search_near(poses.front().pose, meshes, *stencil, settings.lens, progress);
+      if (settings.allowed)
+        std::erase_if(near, [&](const RefinedPose& pose) { return !settings.allowed(pose.pose); });
+      poses = found.poses;
+      poses.insert(poses.end(), near.begin(), near.end());
+      poses = distinct_poses(std::move(poses), found.poses.size() + 1);
+      settle();
+    }
   }
   Alignment alignment = judged(poses, figures, settings, evidence, mesh, sphere, plane, options);
   if (const auto* colors = dynamic_cast<const ColorEvidence*>(outline.get());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 namespace drape::alignment {
 namespace {
@@ -12,7 +13,11 @@ constexpr int level_extents_px[] = {96, 288, 1000};
 // How far off the outline is still seen; at the coarsest level a sixth of the object.
 constexpr double reach_px = 8;
 constexpr double coarse_reach_px = 16;
-constexpr double same_side = 0.3;         // cosine between the outward directions of what may be matched
+constexpr double same_side = 0.3;  // cosine between the outward directions of what may be matched
+constexpr double beyond_border_px = 2;
+constexpr double at_border_px = 2;
+constexpr double most_beyond = 0.08;   // of the window's longer side: what bulges out of a hole of the scan
+constexpr double unseen_weight = 0.5;  // of outline that the scan says nothing of
 constexpr double beyond_sample_px = 1.5;  // along a straight edge: its direction is good for no more
 
 std::vector<int> level_steps(int extent) {
@@ -79,6 +84,19 @@ class RimCells {
     return best;
   }
 
+  /// Whether the scan ends there.
+  [[nodiscard]] bool border_at(const Eigen::Vector2d& place) const {
+    const int column = index(place.x(), columns_);
+    const int row = index(place.y(), rows_);
+    for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y)
+      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
+        const auto here = static_cast<std::size_t>(y * columns_ + x);
+        for (std::uint32_t i = begin_[here]; i < begin_[here + 1]; ++i)
+          if (rim_[samples_[i]].border && (rim_[samples_[i]].at - place).norm() < at_border_px) return true;
+      }
+    return false;
+  }
+
  private:
   [[nodiscard]] int index(double x, int count) const {
     return std::clamp(static_cast<int>(std::floor(x / size_)) + 1, 0, count - 1);
@@ -97,9 +115,11 @@ class RimCells {
 
 // Holes of a scan that lie before the object in the photo count as covered: the mesh was not measured there,
 // the object is (the thesis's Will Rogers). A handle's opening stays open, as the photo is clear there.
-double overlap_of(const OutlineDrawing& drawing, const StencilLevel& level) {
+// `beyond` is what of the object lies past the scan's borders; empty: nothing.
+double overlap_of(const OutlineDrawing& drawing, const StencilLevel& level, const BitImage& beyond) {
   const std::span<const std::uint64_t> model = drawing.stencil().words();
   const std::span<const std::uint64_t> gaps = drawing.gaps().words();
+  const std::span<const std::uint64_t> past = beyond.words();
   const std::span<const std::uint64_t> object = level.object.words();
   const std::span<const std::uint64_t> known = level.known.words();
   std::int64_t both = 0;
@@ -107,6 +127,7 @@ double overlap_of(const OutlineDrawing& drawing, const StencilLevel& level) {
   for (std::size_t i = 0; i < model.size(); ++i) {
     std::uint64_t covered = model[i] & known[i];
     if (!gaps.empty()) covered |= gaps[i] & object[i];
+    if (!past.empty()) covered |= past[i];
     both += std::popcount(covered & object[i]);
     either += std::popcount(covered | object[i]);
   }
@@ -117,6 +138,57 @@ bool set_at(const BitImage& image, const Eigen::Vector2d& x) {
   return image.at(static_cast<int>(std::floor(x.x())), static_cast<int>(std::floor(x.y())));
 }
 
+// The object goes on in the photo where the scan ends: at a hole of it, or at a border.
+bool beside_unseen(const RimSample& sample, const OutlineDrawing& drawing, const StencilLevel& level) {
+  if (drawing.gaps().words().empty()) return false;
+  const Eigen::Vector2d beside = sample.at + sample.outward;
+  if (set_at(drawing.gaps(), beside) && set_at(level.object, beside)) return true;
+  return sample.border && set_at(level.object, sample.at + beyond_border_px * sample.outward);
+}
+
+// How far it is from a piece of the photo's outline inwards to where the scan ends; nothing where it is the
+// object that ends.
+std::optional<int> depth_to_scan(const ContourPoint& point, const OutlineDrawing& drawing,
+                                 const StencilLevel& level, const RimCells& cells) {
+  const auto most = static_cast<int>(most_beyond * std::max(level.window.width, level.window.height));
+  for (int depth = 1; depth < most; ++depth) {
+    const Eigen::Vector2d x = point.at - depth * point.outward;
+    if (!set_at(level.object, x)) return std::nullopt;
+    if (set_at(drawing.gaps(), x)) return depth;
+    if (set_at(drawing.stencil(), x)) return cells.border_at(x) ? std::optional<int>(depth) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// What of the object lies past the scan's borders, as the pieces of the photo's outline tell that no rim is
+// near.
+class BeyondScan {
+ public:
+  BeyondScan(const OutlineDrawing& drawing, const StencilLevel& level, const RimCells& cells)
+      : drawing_(drawing), level_(level), cells_(cells) {
+    if (!drawing.gaps().words().empty()) pixels_ = BitImage(level.window.width, level.window.height);
+  }
+
+  /// Whether it is the scan that ends before this piece.
+  bool add(const ContourPoint& point) {
+    if (pixels_.words().empty()) return false;
+    const std::optional<int> depth = depth_to_scan(point, drawing_, level_, cells_);
+    if (!depth) return false;
+    for (int i = 1; i < *depth; ++i) {
+      const Eigen::Vector2d x = point.at - i * point.outward;
+      pixels_.set(static_cast<int>(std::floor(x.x())), static_cast<int>(std::floor(x.y())));
+    }
+    return true;
+  }
+  [[nodiscard]] const BitImage& pixels() const { return pixels_; }
+
+ private:
+  const OutlineDrawing& drawing_;
+  const StencilLevel& level_;
+  const RimCells& cells_;
+  BitImage pixels_;
+};
+
 struct Tally {
   double inlier = 0, total = 0, squares = 0, weighted = 0;
   void add(double length, double distance, double inlier_px) {
@@ -126,6 +198,7 @@ struct Tally {
     squares += length * distance * distance;
     weighted += length * (1 - distance * distance / (inlier_px * inlier_px));
   }
+  void miss(double length) { total += length; }
   [[nodiscard]] double share(double of) const { return total > 0 ? of / total : 0; }
 };
 
@@ -168,10 +241,7 @@ Agreement StencilEvidence::compared(const OutlineDrawing& drawing, int level_ind
   for (std::size_t i = 0; i < rim.size(); ++i) {
     const RimSample& sample = rim[i];
     if (!set_at(level.known, sample.at)) continue;
-    if (!drawing.gaps().words().empty()) {
-      const Eigen::Vector2d beside = sample.at + sample.outward;
-      if (set_at(drawing.gaps(), beside) && set_at(level.object, beside)) continue;
-    }
+    if (beside_unseen(sample, drawing, level)) continue;
     const std::int32_t near =
         level.nearest.at(static_cast<int>(sample.at.x()), static_cast<int>(sample.at.y()));
     double distance = reach + 1;
@@ -187,23 +257,30 @@ Agreement StencilEvidence::compared(const OutlineDrawing& drawing, int level_ind
   // Backward: every piece of the photo's outline looks for the rim.
   Tally from_image;
   const RimCells cells(rim, level.window, reach);
+  BeyondScan beyond(drawing, level, cells);
   for (const ContourPoint& point : level.contour) {
     const std::size_t near = cells.nearest(point, reach);
     double distance = reach + 1;
+    Eigen::Vector2d direction;
+    Eigen::Vector2d offset;
     if (near != rim.size()) {
       const RimSample& sample = rim[near];
-      const Eigen::Vector2d offset = point.at - sample.at;
+      offset = point.at - sample.at;
       const Eigen::Vector2d along(-sample.outward.y(), sample.outward.x());
       const bool by_edge = sample.straight && std::abs(along.dot(offset)) <= beyond_sample_px;
-      const Eigen::Vector2d& direction = by_edge ? sample.outward : point.outward;
+      direction = by_edge ? sample.outward : point.outward;
       distance = direction.dot(offset);
-      residuals.push_back({near, direction, distance, point.length, offset});
     }
+    if (std::abs(distance) > inlier_px && beyond.add(point)) {
+      from_image.miss(unseen_weight * point.length);
+      continue;
+    }
+    if (near != rim.size()) residuals.push_back({near, direction, distance, point.length, offset});
     from_image.add(point.length, distance, inlier_px);
     if (pieces != nullptr) pieces->push_back({point.at, point.length, std::abs(distance) <= inlier_px});
   }
   Agreement agreement;
-  agreement.overlap = overlap_of(drawing, level);
+  agreement.overlap = overlap_of(drawing, level, beyond.pixels());
   agreement.rim_inliers = from_rim.share(from_rim.inlier);
   agreement.image_inliers = from_image.share(from_image.inlier);
   agreement.fit = 0.5 * (from_rim.share(from_rim.weighted) + from_image.share(from_image.weighted));

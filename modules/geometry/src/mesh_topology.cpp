@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+
+#include "drape/base/disjoint_sets.hpp"
 
 namespace drape {
 namespace {
@@ -101,36 +102,25 @@ std::vector<BoundaryLoop> loops_of(std::size_t vertex_count,
 
 // The number of sets of border edges that hang together by their vertices.
 std::size_t border_count(std::size_t vertex_count, const std::vector<std::array<std::uint32_t, 2>>& border) {
-  std::vector<std::uint32_t> parent(vertex_count);
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& edge : border) parent[root(edge[0])] = root(edge[1]);
+  DisjointSets sets(vertex_count);
+  for (const auto& edge : border) sets.join(edge[0], edge[1]);
   std::vector<std::uint32_t> roots;
-  for (const auto& edge : border) roots.push_back(root(edge[0]));
+  for (const auto& edge : border) roots.push_back(sets.find(edge[0]));
   std::sort(roots.begin(), roots.end());
   return static_cast<std::size_t>(std::unique(roots.begin(), roots.end()) - roots.begin());
 }
 
 std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& edges) {
-  std::vector<std::uint32_t> parent(mesh.faces.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t f) {
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-  };
+  DisjointSets sets(mesh.faces.size());
   for_each_edge(edges, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const std::uint32_t a = root(edges[begin].face);
-      const std::uint32_t b = root(edges[i].face);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (std::size_t i = begin + 1; i < end; ++i) sets.join(edges[begin].face, edges[i].face);
   });
   std::vector<std::uint32_t> label(mesh.faces.size());
   std::uint32_t count = 0;
-  for (std::uint32_t f = 0; f < label.size(); ++f) label[f] = root(f) == f ? count++ : label[root(f)];
+  for (std::uint32_t f = 0; f < label.size(); ++f) {
+    const std::uint32_t first = sets.find(f);
+    label[f] = first == f ? count++ : label[first];
+  }
   return label;
 }
 

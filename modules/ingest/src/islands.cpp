@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
+#include "drape/base/disjoint_sets.hpp"
 #include "drape/base/parallel.hpp"
 #include "drape/ingest/point_spacing.hpp"
 
@@ -58,19 +58,11 @@ Cube cube_at(const Eigen::Vector3d& place) {
           static_cast<std::int32_t>(cell.z())};
 }
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t node) {
-  while (parent[node] != node) node = parent[node] = parent[parent[node]];
-  return node;
-}
-
 // The group of each cube, by joining those that touch; `cubes` is sorted.
 std::vector<std::uint32_t> groups_of(const std::vector<Cube>& cubes) {
-  std::vector<std::uint32_t> parent(cubes.size());
-  std::iota(parent.begin(), parent.end(), 0U);
+  DisjointSets sets(cubes.size());
   const auto join = [&](std::size_t one, std::size_t other) {
-    const std::uint32_t a = root_of(parent, static_cast<std::uint32_t>(one));
-    const std::uint32_t b = root_of(parent, static_cast<std::uint32_t>(other));
-    parent[std::max(a, b)] = std::min(a, b);
+    sets.join(static_cast<std::uint32_t>(one), static_cast<std::uint32_t>(other));
   };
   // Half of the cubes around come before it. Those that differ in z only lie side by side in the sorted list,
   // and what is looked for moves along the list as the cube itself does.
@@ -88,8 +80,10 @@ std::vector<std::uint32_t> groups_of(const std::vector<Cube>& cubes) {
         join(i, other);
     }
   }
-  for (std::uint32_t i = 0; i < cubes.size(); ++i) parent[i] = root_of(parent, i);
-  return parent;
+  std::vector<std::uint32_t> groups;
+  groups.reserve(cubes.size());
+  for (std::uint32_t i = 0; i < cubes.size(); ++i) groups.push_back(sets.find(i));
+  return groups;
 }
 
 // Points that follow each other within one cube.

@@ -156,6 +156,38 @@ TEST(OutlineDrawing, OfAClosedMeshTheFrontsAreTheWholeStencil) {
   EXPECT_FALSE(outline_mesh(turned, unit_sphere(turned)).closed);
 }
 
+TEST(OutlineDrawing, CapsShowWhatIsMissingAtTheOutline) {
+  // A cube without its right side, seen from where that side would be seen too.
+  TriangleMesh cube = test::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  std::erase_if(cube.faces, [&](const Face& f) {
+    return std::all_of(f.begin(), f.end(), [&](std::uint32_t v) { return cube.vertices[v].x() > 0.4; });
+  });
+  const OutlineMesh open = outline_mesh(cube, unit_sphere(cube));
+  EXPECT_EQ(open.caps.size(), 4U);
+  EXPECT_EQ(open.border_middles.size(), 1U);
+  OutlinePose pose;
+  pose.scale = 40;
+  pose.rotation = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const Window window{{-50, -50}, 1, 100, 100};
+  OutlineDrawing drawing;
+  drawing.draw(open, pose, window);
+  // Nothing is missing where the far side is seen through the opening, and no pixel is both.
+  int gaps = 0;
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) {
+      gaps += drawing.gaps().at(x, y) ? 1 : 0;
+      EXPECT_FALSE(drawing.gaps().at(x, y) && drawing.stencil().at(x, y));
+    }
+  EXPECT_EQ(gaps, 0);
+  // Without the side behind the opening as well, one sees through, out of the outline.
+  std::erase_if(cube.faces, [&](const Face& f) {
+    return std::all_of(f.begin(), f.end(), [&](std::uint32_t v) { return cube.vertices[v].z() > 0.4; });
+  });
+  const OutlineMesh wider = outline_mesh(cube, unit_sphere(cube));
+  drawing.draw(wider, pose, window);
+  EXPECT_TRUE(drawing.gaps().at(60, 50) || drawing.gaps().at(40, 50));
+}
+
 TEST(BitRaster, GapsAreWhatTheBorderDoesNotReach) {
   Rng rng(3);
   BitImage mesh(150, 40);

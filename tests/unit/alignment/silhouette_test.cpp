@@ -147,12 +147,17 @@ TEST(Silhouette, TriesOnlyUprightPosesWhereThePhotoIs) {
   EXPECT_GT(rotation_between_deg(align(mesh, evidence, options).camera, truth), 20);
 }
 
-TEST(Silhouette, ForgivesHolesOfTheMeshButNotOfTheObject) {
+TriangleMesh bumped_torus() {
   TriangleMesh mesh = test::torus(1, 0.4, 60, 40);
   const TriangleMesh bump = test::box({0.9, -0.3, 0}, {1.8, 0.1, 0.5});
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), bump.vertices.begin(), bump.vertices.end());
   for (const Face& f : bump.faces) mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+  return mesh;
+}
+
+TEST(Silhouette, ForgivesHolesOfTheMeshButNotOfTheObject) {
+  const TriangleMesh mesh = bumped_torus();
   const Camera truth = view_of({185, 5, 40}, 24).resized(640, 480);
   const Image8 photo = stencil_of(mesh, truth);
   // Both walls are missing in a patch, so that one sees through.
@@ -175,6 +180,26 @@ TEST(Silhouette, ForgivesHolesOfTheMeshButNotOfTheObject) {
       if ((Eigen::Vector2d(x, y) - middle).norm() < 80) closed.at(x, y) = stencil::object;
     }
   EXPECT_LT(align(mesh, closed).overlap_percent, 98);
+}
+
+TEST(Silhouette, ForgivesHolesThatTheOutlinePassesThrough) {
+  const TriangleMesh mesh = bumped_torus();
+  std::vector<std::uint8_t> keep;
+  for (const Face& f : mesh.faces) {
+    const Eigen::Vector3d& x = mesh.vertices[f[0]];
+    const bool outer = x.head<2>().norm() > 1.05;
+    keep.push_back(outer && std::abs(std::atan2(x.y(), -x.x())) < 1 ? 0 : 1);
+  }
+  const TriangleMesh cut = with_faces(mesh, keep);
+  for (const Eigen::Vector3d& angles : {Eigen::Vector3d(185, 5, 40), Eigen::Vector3d(20, 10, 0),
+                                        Eigen::Vector3d(150, 20, 70), Eigen::Vector3d(60, 30, 110)}) {
+    const Camera truth = view_of(angles, 24).resized(640, 480);
+    const Alignment found = align(cut, stencil_of(mesh, truth));
+    EXPECT_LT(rotation_between_deg(found.camera, truth), 0.3) << angles.transpose();
+    EXPECT_EQ(found.verdict, Verdict::accept) << found.reasons.front();
+    EXPECT_GT(found.inlier_fraction, 0.9) << angles.transpose();
+    EXPECT_GT(found.overlap_percent, 98) << angles.transpose();
+  }
 }
 
 // Gives the pixels `value`, those of the least key first, until they are a share of the object's.
