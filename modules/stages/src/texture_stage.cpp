@@ -127,7 +127,7 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
 pipeline::Stage texture_stage() {
   pipeline::Stage stage;
   stage.name = "texture";
-  stage.version = 6;
+  stage.version = 7;
   stage.summary = "Drapes the photos over the mesh: hidden surfaces, borders, unseen parts.";
   stage.input_parts = {"photos"};
   stage.reads = {{"fill", "mesh.ply"},

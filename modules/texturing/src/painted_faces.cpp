@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "drape/base/parallel.hpp"
-#include "edge_splits.hpp"
 
 namespace drape::texturing {
 namespace {
@@ -235,6 +234,19 @@ std::vector<EdgeSplit> decide(const Looker& looker, State& state, double split_p
 }
 
 }  // namespace
+
+void cut_edges(PaintedFaces& surface, std::vector<int>& chosen, std::span<const EdgeSplit> splits) {
+  SplitMesh split = split_edges(surface.mesh, splits);
+  std::vector<int> views;
+  std::vector<std::uint32_t> sets;
+  for (const std::uint32_t parent : split.parents) {
+    views.push_back(chosen[parent]);
+    sets.push_back(surface.candidate_sets[parent]);
+  }
+  surface.mesh = std::move(split.mesh);
+  surface.candidate_sets = std::move(sets);
+  chosen = std::move(views);
+}
 
 PaintedFaces split_at_sight(const TriangleMesh& mesh, std::span<const PhotoSight> sights, double split_px,
                             const Progress& progress) {

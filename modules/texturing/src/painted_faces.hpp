@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drape/base/progress.hpp"
+#include "edge_splits.hpp"
 #include "photo_sight.hpp"
 #include "surface_normals.hpp"
 
@@ -23,6 +24,9 @@ struct PaintedFaces {
   std::vector<std::uint32_t> candidate_sets;       // per face: index into candidates
   std::vector<std::vector<Candidate>> candidates;  // set 0 is empty
 };
+
+/// Cuts edges (see split_edges); parts of a face keep its candidates, and the photo `chosen` for it.
+void cut_edges(PaintedFaces& surface, std::vector<int>& chosen, std::span<const EdgeSplit> splits);
 
 /// Splits the faces of `mesh` until each is either seen whole by some photo or not at all, down to edges of
 /// split_px in the photo: what is then still seen partly counts as unseen. Edges are cut where sight ends.

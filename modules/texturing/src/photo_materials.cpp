@@ -47,16 +47,7 @@ void straighten(PaintedFaces& surface, std::vector<int>& chosen, std::span<const
       }
     }
     if (splits.empty()) return;
-    SplitMesh split = split_edges(surface.mesh, splits);
-    std::vector<int> views;
-    std::vector<std::uint32_t> sets;
-    for (const std::uint32_t parent : split.parents) {
-      views.push_back(chosen[parent]);
-      sets.push_back(surface.candidate_sets[parent]);
-    }
-    surface.mesh = std::move(split.mesh);
-    surface.candidate_sets = std::move(sets);
-    chosen = std::move(views);
+    cut_edges(surface, chosen, splits);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "pull_push.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "drape/base/parallel.hpp"
@@ -10,6 +11,7 @@ namespace drape::texturing {
 namespace {
 
 constexpr std::size_t rows_per_chunk = 16;
+constexpr int rings = 3;  // that grow pixel by pixel
 
 template <class Body>
 void for_rows(int height, Body body) {
@@ -55,6 +57,64 @@ void push(const WeightedPixels& coarse, WeightedPixels& fine) {
   });
 }
 
+struct Place {
+  int x;
+  int y;
+};
+
+template <class Visit>
+void for_neighbors(const Place& p, const Image8& picture, Visit visit) {
+  for (int y = std::max(0, p.y - 1); y <= std::min(picture.height() - 1, p.y + 1); ++y)
+    for (int x = std::max(0, p.x - 1); x <= std::min(picture.width() - 1, p.x + 1); ++x)
+      if (x != p.x || y != p.y) visit(x, y, x == p.x || y == p.y ? 2.F : 1.F);
+}
+
+std::vector<Place> unknown_beside_known(const Image8& known) {
+  std::vector<Place> rim;
+  for (int y = 0; y < known.height(); ++y)
+    for (int x = 0; x < known.width(); ++x) {
+      if (known.at(x, y) != 0) continue;
+      bool beside = false;
+      for_neighbors({x, y}, known, [&](int u, int v, float) { beside = beside || known.at(u, v) != 0; });
+      if (beside) rim.push_back({x, y});
+    }
+  return rim;
+}
+
+// Pixel by pixel outwards, each the mean of its known neighbours: next to what is known, narrow stripes go on
+// as narrow as they are, where coarser means would mix them.
+void grow_rings(Image8& rgb, Image8& known) {
+  std::vector<Place> ring = unknown_beside_known(known);
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  for (int i = 0; i < rings && !ring.empty(); ++i) {
+    colors.clear();
+    for (const Place& p : ring) {
+      Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+      for_neighbors(p, known, [&](int x, int y, float weight) {
+        if (known.at(x, y) == 0) return;
+        sum += weight * Eigen::Vector4f(linear_from_byte(rgb.at(x, y, 0)), linear_from_byte(rgb.at(x, y, 1)),
+                                        linear_from_byte(rgb.at(x, y, 2)), 1);
+      });
+      sum /= sum.w();
+      colors.push_back({byte_from_linear(sum[0]), byte_from_linear(sum[1]), byte_from_linear(sum[2])});
+    }
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      known.at(ring[k].x, ring[k].y) = 1;
+      for (int c = 0; c < 3; ++c) rgb.at(ring[k].x, ring[k].y, c) = colors[k][static_cast<std::size_t>(c)];
+    }
+    std::vector<Place> next;
+    constexpr std::uint8_t listed = 2;
+    for (const Place& p : ring)
+      for_neighbors(p, known, [&](int x, int y, float) {
+        if (known.at(x, y) != 0) return;
+        known.at(x, y) = listed;
+        next.push_back({x, y});
+      });
+    for (const Place& p : next) known.at(p.x, p.y) = 0;
+    ring = std::move(next);
+  }
+}
+
 }  // namespace
 
 WeightedPixels pull_pushed(WeightedPixels pixels) {
@@ -67,11 +127,13 @@ WeightedPixels pull_pushed(WeightedPixels pixels) {
   return std::move(levels[0]);
 }
 
-void grow_colors(Image8& rgb, const Image8& known) {
+void grow_colors(Image8& rgb, const Image8& given) {
   const auto unknown = [](std::uint8_t v) { return v == 0; };
-  const auto begin = known.data().begin();
-  const auto end = known.data().end();
+  const auto begin = given.data().begin();
+  const auto end = given.data().end();
   if (std::none_of(begin, end, unknown) || std::all_of(begin, end, unknown)) return;
+  Image8 known = given;
+  grow_rings(rgb, known);
   // The finest level, of four floats a pixel, is never there as a whole.
   WeightedPixels coarse((rgb.width() + 1) / 2, (rgb.height() + 1) / 2);
   for_rows(coarse.height, [&](int row) {

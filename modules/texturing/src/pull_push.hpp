@@ -30,7 +30,8 @@ struct WeightedPixels {
 /// any weight, as it was.
 [[nodiscard]] WeightedPixels pull_pushed(WeightedPixels pixels);
 
-/// The same for a picture in bytes (RGB, sRGB-encoded, of the size of `known`), filled where `known` is 0.
+/// The same for a picture in bytes (RGB, sRGB-encoded, of the size of `known`), filled where `known` is 0;
+/// the first pixels beside what is known continue their neighbours.
 void grow_colors(Image8& rgb, const Image8& known);
 
 }  // namespace drape::texturing

@@ -13,6 +13,9 @@ constexpr double smoothness = 0.3;  // of a correction along an edge, against ag
 constexpr double anchor = 1e-4;     // keeps the mean where it was
 constexpr double plain = 0.05;      // contrast, of log light, from which on agreement counts less
 
+constexpr double excessive = 4;        // times the typical step between photos
+constexpr double least_excess = 0.15;  // of log light
+
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
@@ -66,6 +69,49 @@ Eigen::MatrixXd solved_from_zero(const Sparse& lower, const Eigen::MatrixXd& rig
   return solved;
 }
 
+// Two photos at one vertex: what the second one's log colour is more than the first one's.
+struct Step {
+  int a;
+  int b;
+  double weight;
+  Eigen::Vector3d difference;
+};
+
+std::vector<Step> steps_between_photos(const PaintedFaces& surface, std::span<const VertexGains> gains,
+                                       const Unknowns& unknowns, std::span<const PhotoSight> sights,
+                                       std::span<const PhotoColors> colors) {
+  std::vector<Step> steps;
+  for (std::size_t v = 0; v < gains.size(); ++v) {
+    if (gains[v].size() < 2) continue;
+    std::vector<Eigen::Vector3d> seen;
+    std::vector<double> contrast;
+    for (const ViewGain& g : gains[v]) {
+      const auto view = static_cast<std::size_t>(g.view);
+      const Eigen::Vector2d pixel = sights[view].pixel_of(surface.mesh.vertices[v]);
+      seen.emplace_back((log_light(colors[view].smooth_at(pixel)) + g.gain).cast<double>());
+      contrast.push_back(colors[view].contrast_at(pixel));
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      for (std::size_t j = i + 1; j < seen.size(); ++j) {
+        // Near edges, photos differ by what each resolves rather than by their light.
+        const double weight =
+            1 / (1 + (contrast[i] * contrast[i] + contrast[j] * contrast[j]) / (plain * plain));
+        steps.push_back({unknowns.first[v] + static_cast<int>(i), unknowns.first[v] + static_cast<int>(j),
+                         weight, seen[j] - seen[i]});
+      }
+  }
+  return steps;
+}
+
+double typical_size(const std::vector<Step>& steps) {
+  if (steps.empty()) return 0;
+  std::vector<double> sizes;
+  for (const Step& step : steps) sizes.push_back(step.difference.norm());
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
 }  // namespace
 
 std::vector<VertexGains> no_gains(const PaintedFaces& surface, std::span<const int> chosen,
@@ -102,30 +148,19 @@ std::vector<VertexGains> levelling_gains(const PaintedFaces& surface, std::span<
   }
   if (!several) return gains;
 
+  const std::vector<Step> steps = steps_between_photos(surface, gains, unknowns, sights, colors);
+  const double typical = typical_size(steps);
   Triplets normal;
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 3);
   for (int i = 0; i < count; ++i) normal.emplace_back(i, i, anchor);
-  for (std::size_t v = 0; v < gains.size(); ++v) {
-    if (gains[v].size() < 2) continue;
-    std::vector<Eigen::Vector3d> seen;
-    std::vector<double> contrast;
-    for (const ViewGain& g : gains[v]) {
-      const auto view = static_cast<std::size_t>(g.view);
-      const Eigen::Vector2d pixel = sights[view].pixel_of(surface.mesh.vertices[v]);
-      seen.emplace_back((log_light(colors[view].smooth_at(pixel)) + g.gain).cast<double>());
-      contrast.push_back(colors[view].contrast_at(pixel));
-    }
-    for (std::size_t i = 0; i < seen.size(); ++i)
-      for (std::size_t j = i + 1; j < seen.size(); ++j) {
-        const int a = unknowns.first[v] + static_cast<int>(i);
-        const int b = unknowns.first[v] + static_cast<int>(j);
-        // Near edges, photos differ by what each resolves rather than by their light.
-        const double weight =
-            1 / (1 + (contrast[i] * contrast[i] + contrast[j] * contrast[j]) / (plain * plain));
-        add_difference(normal, a, b, weight);
-        right.row(a) += weight * (seen[j] - seen[i]).transpose();
-        right.row(b) -= weight * (seen[j] - seen[i]).transpose();
-      }
+  for (const Step& step : steps) {
+    // Geman and McClure: steps much larger than most are of other paint, a little beside.
+    const double excess = step.difference.norm() / std::max(least_excess, excessive * typical);
+    const double trust = 1 / (1 + excess * excess);
+    const double weight = step.weight * trust * trust;
+    add_difference(normal, step.a, step.b, weight);
+    right.row(step.a) += weight * step.difference.transpose();
+    right.row(step.b) -= weight * step.difference.transpose();
   }
   add_smoothness(normal, surface.mesh, chosen, gains, unknowns);
   Sparse matrix(count, count);

@@ -83,11 +83,29 @@ struct Painting {
   std::vector<Eigen::Vector3f> exposures;
   std::vector<int> chosen;
   bool atlas = false;
+  double ribbon_reach = 0;          // painted surface goes on so far, in its own colours; 0: it does not
   std::vector<VertexBlend> blends;  // of an atlas
   std::vector<VertexGains> gains;
   std::vector<const Image8*> photos;   // of the sights
   std::vector<const Image8*> trusted;  // how far their pixels are
 };
+
+// Pixels per unit length where photos paint the surface, typically.
+double typical_resolution(const PaintedFaces& surface, std::span<const int> chosen) {
+  std::vector<double> resolutions;
+  for (std::size_t f = 0; f < chosen.size(); ++f)
+    if (chosen[f] != no_view) resolutions.push_back(std::sqrt(candidate_of(surface, f, chosen[f]).quality));
+  if (resolutions.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = resolutions.begin() + static_cast<std::ptrdiff_t>(resolutions.size() / 2);
+  std::nth_element(resolutions.begin(), middle, resolutions.end());
+  return std::max(*middle, std::numeric_limits<double>::min());
+}
+
+std::vector<std::uint8_t> painted_faces(std::span<const int> chosen) {
+  std::vector<std::uint8_t> painted;
+  for (const int view : chosen) painted.push_back(view != no_view);
+  return painted;
+}
 
 Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
                      std::span<const TextureView> views, const TextureOptions& options,
@@ -120,6 +138,11 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
   }
   progress.update(0.95, "choosing photos");
   p.chosen = chosen_views(p.surface);
+  // What the scanner saw itself needs no ribbons.
+  if (options.unseen != Unseen::scan_colour || simplified.colors.empty())
+    p.ribbon_reach = options.fill_px / typical_resolution(p.surface, p.chosen);
+  if (p.ribbon_reach > 0)
+    cut_edges(p.surface, p.chosen, ends_of_reach(p.surface.mesh, painted_faces(p.chosen), p.ribbon_reach));
   if (!p.atlas) {
     straighten(p.surface, p.chosen, sights);
     return p;
@@ -237,18 +260,6 @@ void add_coverage(const Painting& p, const FaceLists& faces_of, std::span<const 
   result.background_texels_percent = 100 * pixels.background / pixels.covered;
 }
 
-// Pixels per unit length where photos paint the surface, typically.
-double typical_resolution(const Painting& p) {
-  std::vector<double> resolutions;
-  for (std::size_t f = 0; f < p.chosen.size(); ++f)
-    if (p.chosen[f] != no_view)
-      resolutions.push_back(std::sqrt(candidate_of(p.surface, f, p.chosen[f]).quality));
-  if (resolutions.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = resolutions.begin() + static_cast<std::ptrdiff_t>(resolutions.size() / 2);
-  std::nth_element(resolutions.begin(), middle, resolutions.end());
-  return std::max(*middle, std::numeric_limits<double>::min());
-}
-
 void add_flat_material(const std::string& name, const std::vector<std::uint8_t>& faces,
                        const Eigen::Vector3f& color, std::set<std::string>& names, TexturedMesh& model) {
   if (std::find(faces.begin(), faces.end(), 1) == faces.end()) return;
@@ -260,18 +271,16 @@ void add_flat_material(const std::string& name, const std::vector<std::uint8_t>&
   model.materials.push_back(std::move(material));
 }
 
-// Narrow ribbons beside painted surface go on in its colours; what the scanner saw itself needs no growing.
+// Narrow ribbons beside painted surface go on in its colours.
 void add_unseen(const Painting& p, const TextureOptions& options, std::set<std::string>& names,
                 TextureResult& result) {
   TexturedMesh& model = result.model;
-  std::vector<std::uint8_t> painted;
-  for (const int view : p.chosen) painted.push_back(view != no_view);
+  const std::vector<std::uint8_t> painted = painted_faces(p.chosen);
   const SeenColors seen = seen_colors(p);
   std::vector<Eigen::Vector3f> colors = unseen_colors(model.mesh, options.unseen, seen);
   result.unseen_in_scan_colour = options.unseen == Unseen::scan_colour && !colors.empty();
   std::vector<std::uint8_t> ribbons(painted.size(), 0);
-  if (!result.unseen_in_scan_colour && options.fill_px > 0)
-    ribbons = faces_within_reach(model.mesh, painted, options.fill_px / typical_resolution(p));
+  if (p.ribbon_reach > 0) ribbons = faces_within_reach(model.mesh, painted, p.ribbon_reach);
   const bool any = std::find(ribbons.begin(), ribbons.end(), 1) != ribbons.end();
   if (any && options.unseen != Unseen::inpaint) {
     if (colors.empty()) colors.assign(model.mesh.vertices.size(), neutral_color);

@@ -46,8 +46,11 @@ std::vector<Eigen::Vector3f> harmonic_colors(const TriangleMesh& mesh, const See
   return colors;
 }
 
-std::vector<std::uint8_t> faces_within_reach(const TriangleMesh& mesh,
-                                             const std::vector<std::uint8_t>& painted, double reach) {
+namespace {
+
+// Of each vertex to painted surface, along unpainted edges; infinite beyond `reach`.
+std::vector<double> distances_to_painted(const TriangleMesh& mesh, const std::vector<std::uint8_t>& painted,
+                                         double reach) {
   constexpr double far = std::numeric_limits<double>::infinity();
   std::vector<double> distance(mesh.vertices.size(), far);
   for (std::size_t f = 0; f < painted.size(); ++f)
@@ -69,11 +72,45 @@ std::vector<std::uint8_t> faces_within_reach(const TriangleMesh& mesh,
       }
     }
   }
+  return distance;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> faces_within_reach(const TriangleMesh& mesh,
+                                             const std::vector<std::uint8_t>& painted, double reach) {
+  const std::vector<double> distance = distances_to_painted(mesh, painted, reach);
   std::vector<std::uint8_t> within(painted.size(), 0);
   for (std::size_t f = 0; f < painted.size(); ++f)
     within[f] = painted[f] == 0 && std::all_of(mesh.faces[f].begin(), mesh.faces[f].end(),
                                                [&](std::uint32_t v) { return distance[v] <= reach; });
   return within;
+}
+
+std::vector<EdgeSplit> ends_of_reach(const TriangleMesh& mesh, const std::vector<std::uint8_t>& painted,
+                                     double reach) {
+  constexpr double just_within = 0.999;  // of the reach, so that rounding leaves the cuts within it
+  constexpr double least_part = 0.05;    // of the reach: shorter parts are not worth a cut
+  const std::vector<double> distance = distances_to_painted(mesh, painted, reach);
+  std::vector<EdgeSplit> splits;
+  for (std::size_t f = 0; f < painted.size(); ++f) {
+    if (painted[f] != 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t near = mesh.faces[f][k];
+      std::uint32_t beyond = mesh.faces[f][(k + 1) % 3];
+      if (distance[near] > distance[beyond]) std::swap(near, beyond);
+      if (!(distance[near] < reach) || distance[beyond] <= reach) continue;
+      const double length = (mesh.vertices[near] - mesh.vertices[beyond]).norm();
+      const double part = just_within * (reach - distance[near]);
+      if (std::min(part, length - part) < least_part * reach) continue;
+      const double share = part / length;
+      if (near < beyond)
+        splits.push_back({near, beyond, share});
+      else
+        splits.push_back({beyond, near, 1 - share});
+    }
+  }
+  return splits;
 }
 
 std::vector<Eigen::Vector3f> unseen_colors(const TriangleMesh& mesh, Unseen unseen, const SeenColors& seen) {

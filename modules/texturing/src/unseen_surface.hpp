@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drape/texturing/texture_mesh.hpp"
+#include "edge_splits.hpp"
 
 namespace drape::texturing {
 
@@ -24,6 +25,11 @@ using SeenColors = std::vector<std::optional<Eigen::Vector3f>>;
 [[nodiscard]] std::vector<std::uint8_t> faces_within_reach(const TriangleMesh& mesh,
                                                            const std::vector<std::uint8_t>& painted,
                                                            double reach);
+
+/// Where to cut edges of unpainted faces that leave the reach of painted surface, so that ribbons end there
+/// and not where the last whole face does: faces may be much larger than the reach.
+[[nodiscard]] std::vector<EdgeSplit> ends_of_reach(const TriangleMesh& mesh,
+                                                   const std::vector<std::uint8_t>& painted, double reach);
 
 /// What vertices of surface without a photo show: nothing if it is all one flat colour.
 [[nodiscard]] std::vector<Eigen::Vector3f> unseen_colors(const TriangleMesh& mesh, Unseen unseen,

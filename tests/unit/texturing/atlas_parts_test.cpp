@@ -208,6 +208,28 @@ TriangleMesh grid(int steps) {
   return mesh;
 }
 
+// Two large faces side by side, the first of them painted.
+TEST(Ribbons, EndAtTheReachOfPaintedSurface) {
+  TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {0, 10, 0}, {-10, 5, 0}, {10, 5, 0}};
+  mesh.faces = {{0, 2, 1}, {0, 1, 3}};
+  const std::vector<std::uint8_t> painted = {1, 0};
+  EXPECT_EQ(faces_within_reach(mesh, painted, 2), (std::vector<std::uint8_t>{0, 0}));
+  const SplitMesh split = split_edges(mesh, ends_of_reach(mesh, painted, 2));
+  std::vector<std::uint8_t> still_painted;
+  for (const std::uint32_t parent : split.parents) still_painted.push_back(painted[parent]);
+  const std::vector<std::uint8_t> within = faces_within_reach(split.mesh, still_painted, 2);
+  double area = 0;
+  for (std::size_t f = 0; f < within.size(); ++f) {
+    if (within[f] == 0) continue;
+    area += scaled_face_normal(split.mesh, f).norm() / 2;
+    for (const std::uint32_t v : split.mesh.faces[f]) EXPECT_LT(split.mesh.vertices[v].x(), 2);
+  }
+  EXPECT_GT(area, 10);
+  EXPECT_EQ(std::count(still_painted.begin(), still_painted.end(), 1), 1);
+  EXPECT_TRUE(ends_of_reach(mesh, painted, 30).empty());
+}
+
 TEST(HarmonicColors, GoOnLinearlyBetweenWhatIsKnown) {
   TriangleMesh mesh = grid(10);
   const auto color = [](const Eigen::Vector3d& x) {

@@ -116,6 +116,22 @@ TEST(Atlas, LevellingCanBeSwitchedOff) {
   EXPECT_GT(kept, 1.5 * levelled);
 }
 
+// Two photos say nothing of which of them is right; the colours elsewhere must not suffer from it.
+TEST(Atlas, OneDarkPlaceInAPhotoLeavesTheLevelsElsewhere) {
+  const TriangleMesh sphere = test::sphere(1, 48);
+  const Paint paint = [](const Eigen::Vector3d&) { return Eigen::Vector3d(120, 130, 110); };
+  std::vector<Shot> shots;
+  for (const Eigen::Vector3d& eye : std::vector<Eigen::Vector3d>{{4, 0, 0}, {0, 4, 0}})
+    shots.push_back(photographed(
+        sphere, look_at(eye, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 320, 240, 35), paint));
+  Image8& spoilt = shots[0].photo;
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < spoilt.width(); ++x)
+      for (int c = 0; c < 3; ++c) spoilt.at(x, y, c) = spoilt.at(x, y, c) / 2;
+  const TextureResult result = textured(sphere, shots);
+  EXPECT_LT(largest_error(result.model, paint, [](const Eigen::Vector3d& x) { return x.z() < -0.1; }), 4);
+}
+
 TEST(Atlas, AHandInOnePhotoIsOutvoted) {
   const TriangleMesh sphere = test::sphere(1, 32);
   const Paint paint = waves(0.8);

@@ -119,6 +119,25 @@ TEST(GrownPhoto, KeepsTrustedBytesAndBlendsInLinearLight) {
   EXPECT_LT(grown.at(1, 0), 200);
 }
 
+TEST(GrownPhoto, StripesGoOnAsNarrowAsTheyAre) {
+  constexpr int known = 12;  // columns
+  Image8 photo(24, 20, 3, 0);
+  Image8 trusted(24, 20, 1, trust::none);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < known; ++x) {
+      trusted.at(x, y) = trust::full;
+      for (int c = 0; c < 3; ++c) photo.at(x, y, c) = y == 9 ? 220 : 20;
+    }
+  const Image8 grown = grown_photo(photo, trusted, {0, 0, 24, 20});
+  for (int y = 0; y < 20; ++y)
+    if (y == 9)
+      EXPECT_GT(grown.at(known, y), 140);
+    else
+      EXPECT_LT(grown.at(known, y), 130) << y;
+  EXPECT_EQ(grown.at(known, 4), 20);
+  EXPECT_EQ(grown.at(known + 2, 4), 20);
+}
+
 TEST(GrownPhoto, WithoutATrustedPixelIsThePhoto) {
   const Image8 photo(5, 4, 3, 99);
   EXPECT_EQ(grown_photo(photo, Image8(5, 4, 1, trust::none), {0, 0, 5, 4}), photo);

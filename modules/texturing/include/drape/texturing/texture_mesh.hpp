@@ -32,7 +32,7 @@ struct TextureOptions {
   TextureMode mode = TextureMode::automatic;
   int atlas_size_px = 4096;
   bool level_seams = true;
-  double max_incidence_deg = 85;
+  double max_incidence_deg = 88;
   double stencil_erode_px = 1.5;
   double fill_px = 6;
   double pose_max_px = 12;
