@@ -73,12 +73,12 @@ std::uint8_t PhotoSight::sees(const Eigen::Vector3d& point, const Eigen::Vector3
                                  tolerance_ + pixel_size * (0.5 + slope),
                                  std::min(cosine, face_normal.dot(towards)) < surely_told_cosine);
   if (front == InFront::something) return trust::none;
-  if (front == InFront::perhaps && ray_blocked(point, pixel_size + tolerance_ * (1 + slope)))
-    return trust::none;
+  if (front == InFront::perhaps && blocked(point, cosine)) return trust::none;
   return level;
 }
 
-bool PhotoSight::ray_blocked(const Eigen::Vector3d& point, double tolerance) const {
+bool PhotoSight::blocked(const Eigen::Vector3d& point, double cosine) const {
+  const double tolerance = pixel_size_at(camera_.project(point).depth) + tolerance_ * (1 + slope_of(cosine));
   const Eigen::Vector3d towards = camera_.towards_camera(point);
   double way = std::numeric_limits<double>::infinity();
   if (camera_.projection == Camera::Projection::perspective)

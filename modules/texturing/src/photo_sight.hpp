@@ -26,7 +26,7 @@ class PhotoSight {
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] const Image8& trusted() const { return trusted_; }
 
-  /// Gives the depth picture's memory back: sees() must not be asked any more.
+  /// Gives the depth picture's memory back: sees() and blocked() must not be asked any more.
   void forget_depth() { depth_ = {}; }
 
   /// Where in the photo a point in front of the camera is looked up: its projection, warped.
@@ -45,6 +45,10 @@ class PhotoSight {
   /// four of them, and with the others points up to a pixel away are safe as well.
   [[nodiscard]] std::uint8_t sees(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                                   const Eigen::Vector3d& face_normal) const;
+
+  /// Whether an exact ray from the point meets something on its way to the camera; near itself the surface
+  /// does not count. `cosine`: of the incidence, for what counts as near.
+  [[nodiscard]] bool blocked(const Eigen::Vector3d& point, double cosine) const;
 
   /// Whether every point of a small triangle is seen on fully trusted pixels, beyond doubt: nothing lies in
   /// front of its plane anywhere near it. Where it is false, sees() tells. `projected`: the corners as the
@@ -82,7 +86,6 @@ class PhotoSight {
   [[nodiscard]] InFront in_front(const Camera::Projected& seen, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal, const Eigen::Vector3d& face_normal,
                                  double least_tolerance, double tolerance, bool oblique) const;
-  [[nodiscard]] bool ray_blocked(const Eigen::Vector3d& point, double tolerance) const;
 
   Camera camera_;
   OutlineWarp warp_;

@@ -114,9 +114,6 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
   p.sights = sights_of(simplified, full, views, options, progress.part(0, 0.4));
   const std::vector<PhotoSight>& sights = p.sights.sights;
   p.surface = split_at_sight(simplified, sights, options.split_px, progress.part(0.4, 0.9));
-  // Taking the light out asks once more what photos see.
-  if (!options.delight)
-    for (PhotoSight& sight : p.sights.sights) sight.forget_depth();
   p.atlas =
       options.mode == TextureMode::atlas || (options.mode == TextureMode::automatic && sights.size() > 1);
   for (std::size_t i = 0; i < sights.size(); ++i) {
@@ -138,15 +135,17 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
   }
   progress.update(0.95, "choosing photos");
   p.chosen = chosen_views(p.surface);
+  if (!p.atlas) straighten(p.surface, p.chosen, sights);
+  drop_hidden(p.surface, sights, p.chosen);
+  // Taking the light out asks once more what photos see.
+  if (!options.delight)
+    for (PhotoSight& sight : p.sights.sights) sight.forget_depth();
   // What the scanner saw itself needs no ribbons.
   if (options.unseen != Unseen::scan_colour || simplified.colors.empty())
     p.ribbon_reach = options.fill_px / typical_resolution(p.surface, p.chosen);
   if (p.ribbon_reach > 0)
     cut_edges(p.surface, p.chosen, ends_of_reach(p.surface.mesh, painted_faces(p.chosen), p.ribbon_reach));
-  if (!p.atlas) {
-    straighten(p.surface, p.chosen, sights);
-    return p;
-  }
+  if (!p.atlas) return p;
   progress.update(0.97, "blending the photos");
   p.blends = blend_weights(p.surface, p.chosen, blend_px);
   progress.update(0.98, "levelling the seams");

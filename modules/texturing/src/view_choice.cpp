@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "drape/base/parallel.hpp"
 #include "face_edges.hpp"
 #include "tree_reweighted.hpp"
 
@@ -100,6 +101,22 @@ std::vector<int> chosen_views(const PaintedFaces& surface) {
   for (std::size_t f = 0; f < labels.size(); ++f)
     if (!labels[f].empty()) views[f] = labels[f][chosen[f]]->view;
   return views;
+}
+
+void drop_hidden(const PaintedFaces& surface, std::span<const PhotoSight> sights, std::vector<int>& chosen) {
+  const TriangleMesh& mesh = surface.mesh;
+  parallel_for(chosen.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      if (chosen[f] == no_view) continue;
+      const PhotoSight& sight = sights[static_cast<std::size_t>(chosen[f])];
+      const Face& face = mesh.faces[f];
+      const Eigen::Vector3d middle =
+          (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]]) / 3;
+      const double cosine =
+          scaled_face_normal(mesh, f).stableNormalized().dot(sight.camera().towards_camera(middle));
+      if (sight.blocked(middle, std::max(cosine, 1e-3))) chosen[f] = no_view;
+    }
+  });
 }
 
 }  // namespace drape::texturing

@@ -16,4 +16,8 @@ inline constexpr int no_view = -1;
 /// The candidate of a face for a view that chosen_views gave it.
 [[nodiscard]] const Candidate& candidate_of(const PaintedFaces& surface, std::size_t face, int view);
 
+/// Takes from faces the photo chosen for them where an exact ray from their middle meets something: photos'
+/// pixels are too coarse to tell slivers beside what hides them.
+void drop_hidden(const PaintedFaces& surface, std::span<const PhotoSight> sights, std::vector<int>& chosen);
+
 }  // namespace drape::texturing

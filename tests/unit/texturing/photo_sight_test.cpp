@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "drape/rendering/depth_raster.hpp"
+#include "view_choice.hpp"
 
 namespace drape::texturing {
 namespace {
@@ -60,6 +61,24 @@ TEST(PhotoSight, NothingHiddenIsSeenAtTheEndOfASurfaceThatRecedesSteeply) {
   };
   EXPECT_FALSE(plainly(10.02, 10.2));
   EXPECT_TRUE(plainly(20, 20.5));
+}
+
+TEST(DropHidden, AnExactRayHasTheLastWordOnSlivers) {
+  const Camera camera = far_camera();
+  TriangleMesh mesh;
+  add_quad(mesh, {at(camera, 2, 2, 100), at(camera, 38, 2, 100), at(camera, 38, 10.3, 100),
+                  at(camera, 2, 10.3, 100)});
+  const RayCaster front(mesh);
+  PhotoSight sight(camera, {}, rendering::rastered_depth(mesh, camera).depth,
+                   Image8(camera.width, camera.height, 1, trust::full), 1e-5, 85, front);
+  PaintedFaces behind;
+  // Half a pixel wide on either side of where the front ends.
+  for (const double y : {10.0, 10.4})
+    add_quad(behind.mesh, {at(camera, 20, y, 105), at(camera, 20.5, y, 105), at(camera, 20.5, y + 0.2, 105),
+                           at(camera, 20, y + 0.2, 105)});
+  std::vector<int> chosen = {0, no_view, 0, 0};
+  drop_hidden(behind, std::span(&sight, 1), chosen);
+  EXPECT_EQ(chosen, (std::vector<int>{no_view, no_view, 0, 0}));
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ TEST(TextureMesh, ASphereCarriesThePhotoWhereItWasSeen) {
   const Eigen::Vector3d eye(4, 1, 1.5);
   const Shot shot = photographed(sphere, from(eye), paint);
   TextureOptions options;
+  options.max_incidence_deg = 85;
   const TextureResult result = textured(sphere, {shot}, options);
   expect_sound(result);
   // Bilinear blending within a pixel of about 0.006 units of waves 0.8 long and 90 high, at most 60 degrees
@@ -138,7 +139,9 @@ TEST(TextureMesh, WorksForOrthographicCameras) {
   const Paint paint = waves(0.8);
   const Eigen::Vector3d eye(5, 2, 2);
   const Shot shot = photographed(sphere, orthographic_from(eye, 120), paint);
-  const TextureResult result = textured(sphere, {shot});
+  TextureOptions options;
+  options.max_incidence_deg = 85;
+  const TextureResult result = textured(sphere, {shot}, options);
   expect_sound(result);
   EXPECT_LT(largest_error(result.model, paint,
                           [&](const Eigen::Vector3d& x) { return degrees_between(x, eye) < 60; }),
