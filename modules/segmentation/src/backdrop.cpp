@@ -15,6 +15,7 @@ namespace {
 
 constexpr int term_count = 6;
 constexpr double border_width = 0.03;  // of the shorter side
+constexpr double most_samples = 6000;  // of the pixels that a sheet is fitted to
 constexpr int robust_rounds = 12;
 constexpr int growing_rounds = 3;
 constexpr int sheet_growing_rounds = 8;
@@ -27,6 +28,8 @@ constexpr float least_difference = 6;  // Lab units, that an object differs from
 constexpr float noise_multiple = 5;    // ... or so many deviations of the backdrop,
 constexpr float most_difference = 25;  // but what varies by more than this is not smooth
 constexpr float shadow_weight = 0.6F;  // of a backdrop that is only darker: an object's shadow on it
+constexpr float least_shade = 0.25F;   // of the backdrop's lightness, in its shadow
+constexpr float most_tint = 8;         // Lab units, between the colour of the sky and that of a lamp
 
 using Terms = Eigen::Matrix<double, 1, term_count>;
 using Surface = Eigen::Matrix<double, term_count, 3>;  // L, a, b of the position
@@ -40,11 +43,37 @@ Terms terms(int x, int y, const ImageF& lab) {
   return row;
 }
 
+/// A pixel that a backdrop is fitted to.
+struct Sample {
+  Terms terms;
+  Eigen::Matrix<float, 1, 3> lab;
+};
+
+float residual(const Surface& surface, const Sample& sample) {
+  const Eigen::Matrix<float, 1, 3> off = sample.lab - (sample.terms * surface).cast<float>();
+  const float lightness = off[0] < 0 ? shadow_weight * off[0] : off[0];
+  return std::hypot(lightness, off[1], off[2]);
+}
+
+Sample sample_of(const ImageF& lab, int x, int y) {
+  return {terms(x, y, lab), {lab.at(x, y, 0), lab.at(x, y, 1), lab.at(x, y, 2)}};
+}
+
 float residual(const Surface& surface, const ImageF& lab, int x, int y) {
-  const Eigen::Matrix<float, 1, 3> fit = (terms(x, y, lab) * surface).cast<float>();
-  float lightness = lab.at(x, y, 0) - fit[0];
-  if (lightness < 0) lightness *= shadow_weight;
-  return std::hypot(lightness, lab.at(x, y, 1) - fit[1], lab.at(x, y, 2) - fit[2]);
+  return residual(surface, sample_of(lab, x, y));
+}
+
+// Six terms need no more of the pixels than some, taken evenly.
+std::vector<Sample> samples_of(const ImageF& lab, const Mask& used) {
+  const auto count = static_cast<std::size_t>(std::count(used.data().begin(), used.data().end(), 1));
+  const double step = std::max(1.0, static_cast<double>(count) / most_samples);
+  std::vector<Sample> samples;
+  std::size_t seen = 0;
+  for (int y = 0; y < lab.height(); ++y)
+    for (int x = 0; x < lab.width(); ++x)
+      if (used.at(x, y) && static_cast<double>(seen++) >= step * static_cast<double>(samples.size()))
+        samples.push_back(sample_of(lab, x, y));
+  return samples;
 }
 
 float median(std::vector<float> values) {
@@ -54,38 +83,33 @@ float median(std::vector<float> values) {
   return *middle;
 }
 
-std::vector<float> residuals(const Surface& surface, const ImageF& lab, const Mask& used) {
+std::vector<float> residuals(const Surface& surface, const std::vector<Sample>& samples) {
   std::vector<float> out;
-  for (int y = 0; y < lab.height(); ++y)
-    for (int x = 0; x < lab.width(); ++x)
-      if (used.at(x, y)) out.push_back(residual(surface, lab, x, y));
+  for (const Sample& sample : samples) out.push_back(residual(surface, sample));
   return out;
 }
 
-// Weighted least squares; the weights of Cauchy's loss, from the fit before.
-Surface fitted(const Surface& before, bool first, float scale, const ImageF& lab, const Mask& used) {
+// Weighted least squares; the weights of Cauchy's loss, from the residuals of the fit before.
+Surface fitted(const std::vector<float>& before, float scale, const std::vector<Sample>& samples) {
   Eigen::Matrix<double, term_count, term_count> normal;
   normal.setIdentity();
   normal *= 1e-6;
   Surface right = Surface::Zero();
-  for (int y = 0; y < lab.height(); ++y)
-    for (int x = 0; x < lab.width(); ++x) {
-      if (!used.at(x, y)) continue;
-      const double r = first ? 0 : static_cast<double>(residual(before, lab, x, y) / scale);
-      const double weight = 1 / (1 + r * r);
-      const Terms row = terms(x, y, lab);
-      normal += weight * row.transpose() * row;
-      right +=
-          weight * row.transpose() * Eigen::RowVector3d(lab.at(x, y, 0), lab.at(x, y, 1), lab.at(x, y, 2));
-    }
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double r = before.empty() ? 0 : static_cast<double>(before[i] / scale);
+    const double weight = 1 / (1 + r * r);
+    const Terms& row = samples[i].terms;
+    normal += weight * row.transpose() * row;
+    right += weight * row.transpose() * samples[i].lab.cast<double>();
+  }
   return normal.ldlt().solve(right);
 }
 
-Surface robust_fit(const ImageF& lab, const Mask& used) {
-  Surface surface = fitted({}, true, 1, lab, used);
+Surface robust_fit(const std::vector<Sample>& samples) {
+  Surface surface = fitted({}, 1, samples);
   for (int round = 0; round < robust_rounds; ++round) {
-    const float scale = std::max(1.F, 1.5F * median(residuals(surface, lab, used)));
-    surface = fitted(surface, false, scale, lab, used);
+    const std::vector<float> before = residuals(surface, samples);
+    surface = fitted(before, std::max(1.F, 1.5F * median(before)), samples);
   }
   return surface;
 }
@@ -143,17 +167,21 @@ double border_share(const ImageF& difference) {
   return inside / all;
 }
 
-// Differences in units of the limit between backdrop and object.
-Backdrop in_units_of(float limit, ImageF difference) {
-  for (float& value : difference.data()) value /= limit;
-  Backdrop backdrop;
-  backdrop.border_share = border_share(difference);
-  backdrop.difference = std::move(difference);
-  return backdrop;
+// Whether a colour may be that of `lit` in shadow: darker, and its colourfulness falls with its lightness.
+bool in_shade(const float* lab, const Eigen::Matrix<float, 1, 3>& lit) {
+  const float shade = lab[0] / std::max(lit[0], 1.F);
+  return shade < 1 && shade > least_shade &&
+         std::hypot(lab[1] - shade * lit[1], lab[2] - shade * lit[2]) < most_tint;
+}
+
+// Standard deviation of each of three channels, from the lengths of the three: their median is so many of it
+// (of the chi distribution with three degrees of freedom).
+float noise_of(const std::vector<float>& residuals) {
+  return median(residuals) / 1.538F;
 }
 
 float limit_of(const std::vector<float>& noise) {
-  return std::max(least_difference, noise_multiple * 1.4826F * median(noise));
+  return std::max(least_difference, noise_multiple * noise_of(noise));
 }
 
 float smooth_limit_of(const std::vector<float>& noise) {
@@ -200,10 +228,11 @@ Sheet sheet_of(const ImageF& lab, const Mask& open, const Mask& taken) {
   ImageF difference(lab.width(), lab.height(), 1);
   std::ptrdiff_t size = 0;
   for (int round = 0; round < sheet_growing_rounds; ++round) {
-    sheet.surface = robust_fit(lab, sheet.grown);
-    const std::vector<float> noise = residuals(sheet.surface, lab, sheet.grown);
+    const std::vector<Sample> samples = samples_of(lab, sheet.grown);
+    sheet.surface = robust_fit(samples);
+    const std::vector<float> noise = residuals(sheet.surface, samples);
     sheet.limit = smooth_limit_of(noise);
-    const float step = std::max(least_step, noise_multiple * 1.4826F * median(noise));
+    const float step = std::max(least_step, noise_multiple * noise_of(noise));
     for (int y = 0; y < lab.height(); ++y)
       for (int x = 0; x < lab.width(); ++x)
         difference.at(x, y) =
@@ -267,12 +296,19 @@ float seam_residual(const Sheet& a, const Sheet& b, const ImageF& lab, int x, in
 }
 
 Backdrop backdrop_of(const std::vector<Sheet>& sheets, const ImageF& lab) {
-  ImageF difference(lab.width(), lab.height(), 1);
+  Backdrop backdrop;
+  backdrop.sheets = sheets.size();
+  for (const Sheet& sheet : sheets) backdrop.limit = std::max(backdrop.limit, sheet.limit);
+  ImageF& difference = backdrop.difference = ImageF(lab.width(), lab.height(), 1);
+  backdrop.darker = Mask(lab.width(), lab.height(), 1, 0);
   for (int y = 0; y < lab.height(); ++y)
     for (int x = 0; x < lab.width(); ++x) {
+      const Sample here = sample_of(lab, x, y);
       float least = std::numeric_limits<float>::max();
-      for (const Sheet& sheet : sheets)
-        least = std::min(least, residual(sheet.surface, lab, x, y) / sheet.limit);
+      for (const Sheet& sheet : sheets) {
+        least = std::min(least, residual(sheet.surface, here) / sheet.limit);
+        if (in_shade(&lab.at(x, y), (here.terms * sheet.surface).cast<float>())) backdrop.darker.at(x, y) = 1;
+      }
       difference.at(x, y) = least;
     }
   std::vector<Mask> wide;
@@ -285,26 +321,33 @@ Backdrop backdrop_of(const std::vector<Sheet>& sheets, const ImageF& lab) {
             difference.at(x, y) =
                 std::min(difference.at(x, y), seam_residual(sheets[a], sheets[b], lab, x, y) /
                                                   std::max(sheets[a].limit, sheets[b].limit));
-  Backdrop backdrop = in_units_of(1, std::move(difference));
-  backdrop.sheets = sheets.size();
+  backdrop.border_share = border_share(difference);
   return backdrop;
+}
+
+// All of the border as one sheet, whatever parts it has.
+Sheet sheet_of_border(const ImageF& lab) {
+  Sheet sheet;
+  sheet.grown = border_band(lab);
+  ImageF difference(lab.width(), lab.height(), 1);
+  for (int round = 0; round < growing_rounds; ++round) {
+    const std::vector<Sample> samples = samples_of(lab, sheet.grown);
+    sheet.surface = robust_fit(samples);
+    const float limit = limit_of(residuals(sheet.surface, samples));
+    // What has been grown over may be the object: the border alone tells the noise.
+    sheet.limit = round == 0 ? limit : std::min(sheet.limit, limit);
+    for (int y = 0; y < lab.height(); ++y)
+      for (int x = 0; x < lab.width(); ++x) difference.at(x, y) = residual(sheet.surface, lab, x, y);
+    sheet.grown = grown_from_border(difference, sheet.limit);
+    if (std::find(sheet.grown.data().begin(), sheet.grown.data().end(), 1) == sheet.grown.data().end()) break;
+  }
+  return sheet;
 }
 
 }  // namespace
 
 Backdrop smooth_backdrop(const ImageF& lab) {
-  Mask used = border_band(lab);
-  ImageF difference(lab.width(), lab.height(), 1);
-  float limit = least_difference;
-  for (int round = 0; round < growing_rounds; ++round) {
-    const Surface surface = robust_fit(lab, used);
-    limit = limit_of(residuals(surface, lab, used));
-    for (int y = 0; y < lab.height(); ++y)
-      for (int x = 0; x < lab.width(); ++x) difference.at(x, y) = residual(surface, lab, x, y);
-    used = grown_from_border(difference, limit);
-    if (std::find(used.data().begin(), used.data().end(), 1) == used.data().end()) break;
-  }
-  Backdrop one = in_units_of(limit, std::move(difference));
+  Backdrop one = backdrop_of({sheet_of_border(lab)}, lab);
   const std::vector<Sheet> sheets = sheets_of(lab);
   if (sheets.size() < 2) return one;
   Backdrop several = backdrop_of(sheets, lab);
@@ -317,16 +360,22 @@ Backdrop photographed_backdrop(const ImageF& lab, const ImageF& empty_scene) {
   for (std::size_t i = 0; i < lab.data().size(); i += 3)
     if (empty_scene.data()[i] > 5) ratios.push_back(lab.data()[i] / empty_scene.data()[i]);
   const float exposure = ratios.empty() ? 1.F : median(ratios);
-  ImageF difference(lab.width(), lab.height(), 1);
+  Backdrop backdrop;
+  ImageF& difference = backdrop.difference = ImageF(lab.width(), lab.height(), 1);
+  backdrop.darker = Mask(lab.width(), lab.height(), 1, 0);
   for (std::size_t i = 0; i < difference.data().size(); ++i) {
     const float* now = &lab.data()[3 * i];
     const float* empty = &empty_scene.data()[3 * i];
-    float lightness = now[0] - exposure * empty[0];
+    const Eigen::Matrix<float, 1, 3> lit(exposure * empty[0], empty[1], empty[2]);
+    float lightness = now[0] - lit[0];
     if (lightness < 0) lightness *= shadow_weight;
-    difference.data()[i] = std::hypot(lightness, now[1] - empty[1], now[2] - empty[2]);
+    difference.data()[i] = std::hypot(lightness, now[1] - lit[1], now[2] - lit[2]);
+    backdrop.darker.data()[i] = in_shade(now, lit) ? 1 : 0;
   }
   const float limit = limit_of(difference.data());
-  return in_units_of(limit, std::move(difference));
+  for (float& value : difference.data()) value /= limit;
+  backdrop.border_share = border_share(difference);
+  return backdrop;
 }
 
 }  // namespace drape::segmentation

@@ -7,7 +7,9 @@ namespace drape::segmentation {
 
 struct Backdrop {
   ImageF difference;        // per pixel: how far from the backdrop, 1 where object and backdrop part
+  Image8 darker;            // 1 where the photo is darker than the backdrop, of its tint; else 0
   double border_share = 0;  // of the picture's border that is backdrop, 0..1
+  float limit = 0;          // Lab units, of the roughest sheet: what an object differs from it by
   std::size_t sheets = 1;   // smooth parts that it consists of
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backdrop.hpp"
+#include "cast_shadow.hpp"
 #include "drape/base/random.hpp"
 #include "grabcut.hpp"
 #include "object_evidence.hpp"
@@ -67,6 +68,10 @@ Evidence by_backdrop(const ImageF& lab, const ImageF& empty_scene, const Hints& 
       empty_scene.empty() ? smooth_backdrop(lab) : photographed_backdrop(lab, empty_scene);
   Evidence evidence;
   evidence.value = backdrop.difference;
+  Image8 as_bright(lab.width(), lab.height(), 1, 0);
+  for (std::size_t i = 0; i < as_bright.data().size(); ++i)
+    if (backdrop.difference.data()[i] < 1) as_bright.data()[i] = 1;
+  evidence.unknown = cast_shadow(lab, as_bright, backdrop.darker);
   for (float& value : evidence.value.data()) value = 1 - std::exp2(-value);  // one half at the limit
   if (hints.box)
     for (int y = 0; y < lab.height(); ++y)

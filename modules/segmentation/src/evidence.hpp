@@ -12,6 +12,7 @@ namespace drape::segmentation {
 struct Evidence {
   ImageF value;            // per pixel, 0 background .. 1 object; all 0 if nothing stands out
   float threshold = 0.5F;  // that parts the two
+  Image8 unknown;          // 1 where neither is said; empty: nowhere
   bool is_a_cut = false;   // a minimum cut has been here already
 };
 

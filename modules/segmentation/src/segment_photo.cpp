@@ -25,7 +25,9 @@ constexpr double least_segment_difference = 3;  // Lab; neighbours of nearly one
 // a plausible size.
 constexpr double least_backdrop_share = 0.9;
 constexpr double least_object_share = 0.003;
-// A table and a wall make a backdrop only where one thing stands before them.
+// What is rough (grass, rock, clutter) is taken for a backdrop only by sheets that hide much of the object,
+// and parts that do not hang together are rather other things, or the pattern of a table.
+constexpr float roughest_backdrop = 12;  // Lab units
 constexpr double least_share_of_one = 0.85;
 constexpr double most_object_share = 0.75;
 
@@ -72,8 +74,8 @@ Method found_method(const ImageF& lab, const ImageF& empty_scene, const Hints& h
                                      [](float difference) { return difference > 1; });
   const double share = static_cast<double>(objects) / static_cast<double>(backdrop.difference.data().size());
   const bool plausible = share > least_object_share && share < most_object_share;
-  const bool one_thing = backdrop.sheets == 1 || share_of_largest(backdrop) > least_share_of_one;
-  return plausible && one_thing && backdrop.border_share > least_backdrop_share ? Method::background
+  const bool smooth = backdrop.border_share > least_backdrop_share && backdrop.limit <= roughest_backdrop;
+  return smooth && plausible && share_of_largest(backdrop) > least_share_of_one ? Method::background
                                                                                 : Method::grabcut;
 }
 
@@ -111,7 +113,14 @@ Image8 union_of(const Labels& labels, const std::vector<std::uint8_t>& picked) {
 Image8 shaped(const Image8& raw, const SegmentOptions& options,
               const std::optional<std::array<int, 2>>& click) {
   const double hole_percent = options.holes == Holes::close ? 1e9 : options.min_hole_percent;
-  return without_holes(without_islands(raw, options.min_island_percent / 100, click), hole_percent / 100);
+  const Image8 shape =
+      without_holes(without_islands(raw, options.min_island_percent / 100, click), hole_percent / 100);
+  return with_unknown_beside(shape, raw);
+}
+
+std::uint8_t state_of(const Evidence& evidence, std::size_t pixel) {
+  if (!evidence.unknown.empty() && evidence.unknown.data()[pixel] != 0) return stencil::unknown;
+  return evidence.value.data()[pixel] > evidence.threshold ? stencil::object : stencil::background;
 }
 
 // The evidence, or the picked segments where they are named, parted at working size by a minimum cut unless
@@ -121,27 +130,31 @@ Image8 cut_stencil(const Reduced& r, const Image8& photo, const std::vector<std:
   const bool exact = options.pick == Pick::indices || options.pick == Pick::segment;
   Image8 guess = union_of(r.labels, picked);
   if (!exact)
-    for (std::size_t i = 0; i < guess.data().size(); ++i)
-      guess.data()[i] =
-          r.evidence.value.data()[i] > r.evidence.threshold ? stencil::object : stencil::background;
+    for (std::size_t i = 0; i < guess.data().size(); ++i) guess.data()[i] = state_of(r.evidence, i);
   const bool cut_already = !exact && (r.evidence.is_a_cut || options.method == Method::background);
   const Image8 start = shaped(guess, options, r.hints.click);
   const Image8 cut = cut_already ? start : grabcut(r.rgb, start, r.hints, seed);
   Labels sides(cut.width(), cut.height(), 1, 0);
   std::transform(cut.data().begin(), cut.data().end(), sides.data().begin(),
-                 [](std::uint8_t v) { return static_cast<std::int32_t>(v == stencil::object); });
-  return union_of(refined_labels(sides, r.lab, photo), {0, 1});
+                 [](std::uint8_t v) { return static_cast<std::int32_t>(v); });
+  Image8 outlined(photo.width(), photo.height(), 1);
+  const Labels full = refined_labels(sides, r.lab, photo);
+  std::transform(full.data().begin(), full.data().end(), outlined.data().begin(),
+                 [](std::int32_t v) { return static_cast<std::uint8_t>(v); });
+  return outlined;
 }
 
 double confidence_of(const Image8& full, const Reduced& r) {
-  Image8 small(r.rgb.width(), r.rgb.height(), 1);
+  Image8 small(r.rgb.width(), r.rgb.height(), 1, stencil::background);
   std::array<double, 2> sum{};
   std::array<double, 2> pixels{};
   for (int y = 0; y < small.height(); ++y)
     for (int x = 0; x < small.width(); ++x) {
-      small.at(x, y) = full.at((2 * x + 1) * full.width() / (2 * small.width()),
-                               (2 * y + 1) * full.height() / (2 * small.height()));
-      const std::size_t side = small.at(x, y) == stencil::object ? 1 : 0;
+      const std::uint8_t state = full.at((2 * x + 1) * full.width() / (2 * small.width()),
+                                         (2 * y + 1) * full.height() / (2 * small.height()));
+      if (state == stencil::unknown) continue;
+      small.at(x, y) = state;
+      const std::size_t side = state == stencil::object ? 1 : 0;
       sum[side] += r.evidence.value.at(x, y);
       pixels[side] += 1;
     }

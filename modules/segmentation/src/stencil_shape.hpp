@@ -17,4 +17,7 @@ namespace drape::segmentation {
 /// stencil's pixels.
 [[nodiscard]] Image8 without_holes(const Image8& given, double most_share);
 
+/// The shape, and unknown where `states` is in a part that touches it.
+[[nodiscard]] Image8 with_unknown_beside(const Image8& shape, const Image8& states);
+
 }  // namespace drape::segmentation

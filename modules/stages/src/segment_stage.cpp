@@ -79,7 +79,7 @@ segmentation::Segmentation write_segment_files(const pipeline::PhotoInput& input
 pipeline::Stage segment_stage() {
   pipeline::Stage stage;
   stage.name = "segment";
-  stage.version = 3;
+  stage.version = 4;
   stage.summary = "Finds the object in each photo, without the mesh: segments and an image stencil.";
   stage.input_parts = {"photos", "photo_regions"};
   stage.writes = {"*/segments.png", "*/segments.json", "*/stencil.png"};

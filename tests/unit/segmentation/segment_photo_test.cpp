@@ -198,6 +198,51 @@ TEST(SegmentPhoto, AutomaticTakesTheBackdropsWordWhereThereIsOne) {
       paint(cluttered, x, 119 - y, {static_cast<std::uint8_t>(x < 40 ? 220 : 30), 120, 40});
     }
   EXPECT_NE(segmented(cluttered, {}).how.find("GrabCut"), std::string::npos);
+  Image8 rough = s.photo;  // nor is grass, though any of its colours may be anywhere on the border
+  Rng rng(9);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x)
+      if (s.truth.at(x, y) != stencil::object)
+        paint(rough, x, y,
+              {static_cast<std::uint8_t>(80 + rng.below(60)), static_cast<std::uint8_t>(110 + rng.below(90)),
+               60});
+  EXPECT_NE(segmented(rough, {}).how.find("GrabCut"), std::string::npos);
+}
+
+// What the light of the studio's lamp leaves out beside the disc: full under it, soft at its far end, and a
+// little bluer than the backdrop.
+void cast_shadow(Studio& s, double cx, double cy, double radius) {
+  for (int y = 0; y < s.photo.height(); ++y)
+    for (int x = 0; x < s.photo.width(); ++x) {
+      if (s.truth.at(x, y) == stencil::object || x < cx || std::abs(y + 0.5 - cy) > radius) continue;
+      const double beyond = std::hypot(x + 0.5 - cx - 1.2 * radius, y + 0.5 - cy) - 0.8 * radius;
+      const double lit = 1 / (1 + std::exp(-beyond / 3));
+      for (int c = 0; c < 3; ++c)
+        s.photo.at(x, y, c) =
+            static_cast<std::uint8_t>(s.photo.at(x, y, c) * (lit + (1 - lit) * (0.4 + 0.02 * c)));
+    }
+}
+
+TEST(Background, AShadowOnItIsNoPartOfTheObject) {
+  Studio s = studio(320, 240, 130, 116, 60);
+  cast_shadow(s, 130, 116, 60);
+  const Segmentation found = segmented(s.photo, with_method(Method::background));
+  EXPECT_GT(intersection_over_union(found.stencil, s.truth), 0.97);
+  // Neither is it shown as backdrop: where a part of the object has the backdrop's tint it looks the same.
+  EXPECT_EQ(found.stencil.at(205, 116), stencil::unknown);
+  EXPECT_EQ(found.stencil.at(300, 116), stencil::background);
+  EXPECT_EQ(found.stencil.at(100, 116), stencil::object);
+}
+
+TEST(Background, ADarkThingWithASharpOutlineIsNoShadow) {
+  Studio s = studio(160, 120, 85, 58, 34);
+  Rng rng(5);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x)
+      if (s.truth.at(x, y) == stencil::object)
+        for (int c = 0; c < 3; ++c) s.photo.at(x, y, c) = static_cast<std::uint8_t>(60 + 2 * rng.normal());
+  EXPECT_GT(intersection_over_union(segmented(s.photo, with_method(Method::background)).stencil, s.truth),
+            0.97);
 }
 
 TEST(Background, APhotoOfTheEmptySceneShowsTheObjectInClutter) {
