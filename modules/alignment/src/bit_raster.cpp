@@ -83,6 +83,46 @@ void draw_faces(std::span<const Eigen::Vector2d> places, std::span<const Face> f
   }
 }
 
+void WindingFill::begin(int width, int height) {
+  width_ = width;
+  height_ = height;
+  crossings_.clear();
+}
+
+void WindingFill::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int winding) {
+  const bool down = from.y() < to.y();
+  const Eigen::Vector2d& top = down ? from : to;
+  const Eigen::Vector2d& bottom = down ? to : from;
+  const double most = height_;
+  const int first = std::max(0, first_center(top.y(), most));
+  const int end = std::min(height_, first_center(bottom.y(), most));
+  if (first >= end) return;
+  const Side side(top, bottom);
+  for (int y = first; y < end; ++y) {
+    const int column = std::max(0, first_center(side.at(y + 0.5), width_));
+    if (column < width_) crossings_.push_back({y, column, down ? winding : -winding});
+  }
+}
+
+void WindingFill::fill(BitImage& image) {
+  row_begin_.assign(static_cast<std::size_t>(height_) + 2, 0);
+  for (const Crossing& crossing : crossings_) ++row_begin_[static_cast<std::size_t>(crossing.row) + 2];
+  for (std::size_t i = 2; i < row_begin_.size(); ++i) row_begin_[i] += row_begin_[i - 1];
+  sorted_.resize(crossings_.size());
+  for (const Crossing& crossing : crossings_)
+    sorted_[row_begin_[static_cast<std::size_t>(crossing.row) + 1]++] = crossing;
+  for (int y = 0; y < height_; ++y) {
+    const auto begin = sorted_.begin() + row_begin_[static_cast<std::size_t>(y)];
+    const auto end = sorted_.begin() + row_begin_[static_cast<std::size_t>(y) + 1];
+    std::sort(begin, end, [](const Crossing& a, const Crossing& b) { return a.column < b.column; });
+    int winding = 0;
+    for (auto i = begin; i != end; ++i) {
+      winding += i->winding;
+      if (winding > 0) set_span(image.row(y), i->column, i + 1 == end ? width_ : (i + 1)->column);
+    }
+  }
+}
+
 BitImage enclosed_gaps(const BitImage& mesh) {
   const int height = mesh.height();
   const std::size_t words = height == 0 ? 0 : mesh.row(0).size();

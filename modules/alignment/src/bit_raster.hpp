@@ -55,6 +55,31 @@ class BitImage {
 /// its upper vertex: of two faces that share an edge every centre on it belongs to one, none to neither.
 void draw_faces(std::span<const Eigen::Vector2d> places, std::span<const Face> faces, BitImage& image);
 
+/// Fills between edges by how often they wind about a pixel's centre: the same pixels as draw_faces() draws
+/// of faces from their shared sides alone, of which a smooth body has few on its outline and none elsewhere.
+/// Each edge is evaluated as there. Buffers are kept from one picture to the next.
+class WindingFill {
+ public:
+  void begin(int width, int height);
+  /// Adds `winding` to all pixels on the right of the edge where it runs down, and takes it from them where
+  /// it runs up.
+  void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int winding);
+  /// Sets the pixels that are wound about more than not at all.
+  void fill(BitImage& image);
+
+ private:
+  struct Crossing {
+    std::int32_t row = 0;
+    std::int32_t column = 0;  // of the first pixel on its right
+    std::int32_t winding = 0;
+  };
+
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<Crossing> crossings_, sorted_;
+  std::vector<std::uint32_t> row_begin_;
+};
+
 /// What `mesh` does not cover and the image's border cannot reach, by steps to the four neighbours.
 [[nodiscard]] BitImage enclosed_gaps(const BitImage& mesh);
 

@@ -53,11 +53,16 @@ void OutlineDrawing::draw(const OutlineMesh& mesh, const OutlinePose& pose, cons
     stencil_ = BitImage(window.width, window.height);
   else
     stencil_.clear();
-  if (with_rim || mesh.closed) find_sides(mesh);
-  draw_faces(places_, mesh.closed ? seen_ : mesh.faces, stencil_);
+  find_sides(mesh);
+  find_outline(mesh);
+  fill_.begin(window.width, window.height);
+  for (const OutlinePart& part : outline_)
+    fill_.add_edge(places_[part.edge->from], places_[part.edge->to], part.winding);
+  fill_.fill(stencil_);
   find_gaps(mesh, pose, window);
   rim_.clear();
-  if (with_rim) find_rim(mesh, pose, window);
+  if (!with_rim) return;
+  for (const OutlinePart& part : outline_) sample_edge(mesh, *part.edge, pose, window);
 }
 
 // What the caps cover beside the mesh, and what both enclose.
@@ -81,22 +86,22 @@ void OutlineDrawing::find_gaps(const OutlineMesh& mesh, const OutlinePose& pose,
 // Which side of a face is seen is the sense of its projection, exactly, with perspective and all.
 void OutlineDrawing::find_sides(const OutlineMesh& mesh) {
   front_.resize(mesh.faces.size());
-  seen_.clear();
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const Face& face = mesh.faces[f];
     const Eigen::Vector2d& corner = places_[face[0]];
     front_[f] = cross(places_[face[1]] - corner, places_[face[2]] - corner) < 0 ? 1 : 0;
-    if (mesh.closed && front_[f] != 0) seen_.push_back(face);
   }
 }
 
-bool OutlineDrawing::on_rim(const OutlineEdge& edge) const {
-  return edge.other == OutlineEdge::no_face || (front_[edge.face] != front_[edge.other]) != edge.turned;
-}
-
-void OutlineDrawing::find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window) {
-  for (const OutlineEdge& edge : mesh.edges)
-    if (on_rim(edge)) sample_edge(mesh, edge, pose, window);
+// A face that is seen covers what its sides wind about; so does one that turns its back, the other way round.
+// Of the sides that two faces share most cancel: what is left is where the body turns, and its borders.
+void OutlineDrawing::find_outline(const OutlineMesh& mesh) {
+  outline_.clear();
+  for (const OutlineEdge& edge : mesh.edges) {
+    int winding = front_[edge.face] != 0 ? 1 : -1;
+    if (edge.other != OutlineEdge::no_face) winding += (front_[edge.other] != 0) == edge.turned ? 1 : -1;
+    if (winding != 0) outline_.push_back({&edge, winding});
+  }
 }
 
 Eigen::Vector2d OutlineDrawing::normal_of(const OutlineMesh& mesh, const OutlineEdge& edge) const {
@@ -138,8 +143,8 @@ void OutlineDrawing::sample_edge(const OutlineMesh& mesh, const OutlineEdge& edg
 
 std::vector<PixelCrossing> OutlineDrawing::crossings(const OutlineMesh& mesh, const OutlinePose& pose) const {
   std::vector<PixelCrossing> found;
-  for (const OutlineEdge& edge : mesh.edges) {
-    if (!on_rim(edge)) continue;
+  for (const OutlinePart& part : outline_) {
+    const OutlineEdge& edge = *part.edge;
     const Eigen::Vector2d& from = places_[edge.from];
     const Eigen::Vector2d& to = places_[edge.to];
     for (const bool in_row : {true, false}) {

@@ -65,19 +65,24 @@ class OutlineDrawing {
   [[nodiscard]] const BitImage& gaps() const { return gaps_; }
 
  private:
+  /// An edge where the body turns away or ends.
+  struct OutlinePart {
+    const OutlineEdge* edge = nullptr;
+    int winding = 0;
+  };
   void find_sides(const OutlineMesh& mesh);
   void find_gaps(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window);
-  void find_rim(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window);
+  void find_outline(const OutlineMesh& mesh);
   void sample_edge(const OutlineMesh& mesh, const OutlineEdge& edge, const OutlinePose& pose,
                    const Window& window);
-  [[nodiscard]] bool on_rim(const OutlineEdge& edge) const;
   /// Across an edge in the window, on either side; of a short one across the smooth body that it stands for.
   [[nodiscard]] Eigen::Vector2d normal_of(const OutlineMesh& mesh, const OutlineEdge& edge) const;
 
   std::vector<Eigen::Vector3d> turned_;
   std::vector<Eigen::Vector2d> places_;
   std::vector<std::uint8_t> front_;  // per face, whether it is seen from its front
-  std::vector<Face> seen_;
+  std::vector<OutlinePart> outline_;
+  WindingFill fill_;
   BitImage stencil_;
   BitImage gaps_;
   BitImage capped_;

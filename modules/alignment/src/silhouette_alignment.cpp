@@ -217,7 +217,8 @@ Alignment align_silhouette(const SoughtMesh& sought, const PhotoEvidence& eviden
     if (evidence.photo != nullptr) inside.emplace(PhotoInside{*evidence.photo, plane, mesh.colors});
     const auto settle = [&] {
       SettledPoses settled = settled_poses(poses, meshes.full, *stencil, settings.lens, inside, progress);
-      poses = std::move(settled.poses);
+      const std::size_t count = settled.poses.size();
+      poses = distinct_poses(std::move(settled.poses), count);  // some may have become the same
       figures = outline_figures(meshes.full, poses.front().pose, *stencil, settled.noise,
                                 object_extent(evidence.stencil));
       figures.by_photo = settled.shaded;

@@ -136,24 +136,36 @@ TEST(BitRaster, AgreesWithOpenGLButForCentresOnEdges) {
   EXPECT_LE(differences, 2);  // OpenGL rounds corners to 1/256 of a pixel
 }
 
-TEST(OutlineDrawing, OfAClosedMeshTheFrontsAreTheWholeStencil) {
-  const TriangleMesh mesh = test::torus(1, 0.4);
-  OutlineMesh outline = outline_mesh(mesh, unit_sphere(mesh));
-  ASSERT_TRUE(outline.closed);
+TEST(OutlineDrawing, WhatItsOutlineWindsAboutIsWhatItsFacesCover) {
+  const TriangleMesh torus = test::torus(1, 0.4);
+  TriangleMesh open = torus;
+  std::erase_if(open.faces, [&](const Face& f) { return torus.vertices[f[0]].z() > 0.2; });
+  TriangleMesh inside_out = torus;  // one face, and the rest of a quarter
+  for (std::size_t f = 0; f < inside_out.faces.size(); ++f)
+    if (f == 7 || torus.vertices[inside_out.faces[f][0]].x() > 0.8)
+      std::swap(inside_out.faces[f][0], inside_out.faces[f][1]);
+  TriangleMesh finned = torus;  // three faces at an edge
+  finned.vertices.emplace_back(0.2, 0.3, 1.2);
+  finned.faces.push_back(
+      {torus.faces[5][0], torus.faces[5][1], static_cast<std::uint32_t>(finned.vertices.size() - 1)});
+  EXPECT_TRUE(outline_mesh(torus, unit_sphere(torus)).closed);
+  EXPECT_FALSE(outline_mesh(inside_out, unit_sphere(torus)).closed);
   const Window window{{-80, -60}, 1, 160, 120};
-  OutlineDrawing fronts;
-  fronts.draw(outline, some_pose(), window);
-  outline.closed = false;
-  OutlineDrawing all;
-  all.draw(outline, some_pose(), window);
-  for (int y = 0; y < 120; ++y)
-    for (int x = 0; x < 160; ++x) EXPECT_EQ(fronts.stencil().at(x, y), all.stencil().at(x, y));
-  EXPECT_EQ(fronts.rim().size(), all.rim().size());
-  std::swap(outline.faces.front()[0], outline.faces.front()[1]);  // one face inside out
-  TriangleMesh turned;
-  turned.vertices = outline.vertices;
-  turned.faces = outline.faces;
-  EXPECT_FALSE(outline_mesh(turned, unit_sphere(turned)).closed);
+  for (const TriangleMesh& mesh : {torus, open, inside_out, finned})
+    for (const double angle : {0.0, 0.7, 2.1}) {
+      const OutlineMesh outline = outline_mesh(mesh, unit_sphere(mesh));
+      OutlinePose pose = some_pose();
+      pose.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d(0.3, 1, 0.2).normalized()) * pose.rotation;
+      OutlineDrawing drawing;
+      drawing.draw(outline, pose, window);
+      std::vector<Eigen::Vector2d> places;
+      for (const Eigen::Vector3d& x : outline.vertices)
+        places.push_back(window.from_photo(pose.place(pose.rotation * x)));
+      const BitImage faces = drawn(places, outline.faces, window.width, window.height);
+      for (int y = 0; y < window.height; ++y)
+        for (int x = 0; x < window.width; ++x)
+          ASSERT_EQ(drawing.stencil().at(x, y), faces.at(x, y)) << x << ' ' << y;
+    }
 }
 
 TEST(OutlineDrawing, CapsShowWhatIsMissingAtTheOutline) {
