@@ -49,68 +49,88 @@ class StencilRolls final : public Evidence::RollScores {
   PolarStencil stencil_;
 };
 
-// Rim samples in square cells of the reach's size: what is near lies in the 3 x 3 cells about a place.
+// Rim samples in square cells. What is near is looked for in rings of cells about a place: most outlines that
+// are compared lie close.
 class RimCells {
  public:
-  RimCells(const std::vector<RimSample>& rim, const Window& window, double reach)
-      : rim_(rim), size_(std::max(4.0, reach)) {
+  RimCells(const std::vector<RimSample>& rim, const Window& window)
+      : none_(rim.size()), size_(std::max(4.0, std::max(window.width, window.height) / 96.0)) {
     columns_ = static_cast<int>(window.width / size_) + 3;
     rows_ = static_cast<int>(window.height / size_) + 3;
-    begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-    for (const RimSample& sample : rim) ++begin_[cell(sample.at) + 1];
-    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-    samples_.resize(rim.size());
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t i = 0; i < rim.size(); ++i) samples_[next[cell(rim[i].at)]++] = i;
+    begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 2, 0);
+    for (const RimSample& sample : rim) ++begin_[cell(sample.at) + 2];
+    for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    places_.resize(rim.size());
+    for (std::size_t i = 0; i < rim.size(); ++i)
+      places_[begin_[cell(rim[i].at) + 1]++] = {rim[i].at, rim[i].outward, i, rim[i].border};
   }
 
-  /// The nearest sample that looks the same way, or rim.size().
+  /// The nearest sample that looks the same way, or as many as there are.
   [[nodiscard]] std::size_t nearest(const ContourPoint& point, double reach) const {
-    std::size_t best = rim_.size();
+    std::size_t best = none_;
     double best_squared = reach * reach;
     const int column = index(point.at.x(), columns_);
     const int row = index(point.at.y(), rows_);
-    for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y)
-      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
-        const auto here = static_cast<std::size_t>(y * columns_ + x);
-        for (std::uint32_t i = begin_[here]; i < begin_[here + 1]; ++i) {
-          const RimSample& sample = rim_[samples_[i]];
-          const double squared = (sample.at - point.at).squaredNorm();
-          if (squared >= best_squared || sample.outward.dot(point.outward) < same_side) continue;
-          best = samples_[i];
-          best_squared = squared;
-        }
-      }
-    return best;
+    const double to_side = distance_to_side(point.at, column, row);
+    for (int ring = 0;; ++ring) {
+      const double bound = ring == 0 ? 0 : (ring - 1) * size_ + to_side;
+      if (bound * bound >= best_squared) return best;
+      each_on_ring(column, row, ring, [&](const Place& place) {
+        const double squared = (place.at - point.at).squaredNorm();
+        if (squared >= best_squared || place.outward.dot(point.outward) < same_side) return;
+        best = place.sample;
+        best_squared = squared;
+      });
+    }
   }
 
   /// Whether the scan ends there.
-  [[nodiscard]] bool border_at(const Eigen::Vector2d& place) const {
-    const int column = index(place.x(), columns_);
-    const int row = index(place.y(), rows_);
-    for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y)
-      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
-        const auto here = static_cast<std::size_t>(y * columns_ + x);
-        for (std::uint32_t i = begin_[here]; i < begin_[here + 1]; ++i)
-          if (rim_[samples_[i]].border && (rim_[samples_[i]].at - place).norm() < at_border_px) return true;
-      }
-    return false;
+  [[nodiscard]] bool border_at(const Eigen::Vector2d& at) const {
+    bool border = false;
+    for (int ring = 0; ring < 2; ++ring)
+      each_on_ring(index(at.x(), columns_), index(at.y(), rows_), ring, [&](const Place& place) {
+        border |= place.border && (place.at - at).norm() < at_border_px;
+      });
+    return border;
   }
 
  private:
+  struct Place {
+    Eigen::Vector2d at, outward;
+    std::size_t sample = 0;
+    bool border = false;
+  };
+
   [[nodiscard]] int index(double x, int count) const {
     return std::clamp(static_cast<int>(std::floor(x / size_)) + 1, 0, count - 1);
   }
   [[nodiscard]] std::size_t cell(const Eigen::Vector2d& at) const {
     return static_cast<std::size_t>(index(at.y(), rows_) * columns_ + index(at.x(), columns_));
   }
+  // From a place to the nearest side of the cell that it is in.
+  [[nodiscard]] double distance_to_side(const Eigen::Vector2d& at, int column, int row) const {
+    const double x = at.x() - (column - 1) * size_;
+    const double y = at.y() - (row - 1) * size_;
+    return std::max(0.0, std::min({x, size_ - x, y, size_ - y}));
+  }
+  template <class Visit>
+  void each_on_ring(int column, int row, int ring, Visit visit) const {
+    for (int y = std::max(0, row - ring); y <= std::min(rows_ - 1, row + ring); ++y) {
+      const int step = ring == 0 || std::abs(y - row) == ring ? 1 : 2 * ring;
+      for (int x = column - ring; x <= column + ring; x += step) {
+        if (x < 0 || x >= columns_) continue;
+        const auto here = static_cast<std::size_t>(y * columns_ + x);
+        for (std::uint32_t i = begin_[here]; i < begin_[here + 1]; ++i) visit(places_[i]);
+      }
+    }
+  }
 
-  const std::vector<RimSample>& rim_;
+  std::size_t none_;
   double size_;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<std::uint32_t> begin_;
-  std::vector<std::uint32_t> samples_;
+  std::vector<Place> places_;
 };
 
 // Holes of a scan that lie before the object in the photo count as covered: the mesh was not measured there,
@@ -256,7 +276,7 @@ Agreement StencilEvidence::compared(const OutlineDrawing& drawing, int level_ind
   }
   // Backward: every piece of the photo's outline looks for the rim.
   Tally from_image;
-  const RimCells cells(rim, level.window, reach);
+  const RimCells cells(rim, level.window);
   BeyondScan beyond(drawing, level, cells);
   for (const ContourPoint& point : level.contour) {
     const std::size_t near = cells.nearest(point, reach);
