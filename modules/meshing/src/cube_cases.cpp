@@ -1,5 +1,6 @@
 #include "cube_cases.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <vector>
 
@@ -59,23 +60,45 @@ std::array<int, 12> outline(int inside) {
   return next;
 }
 
+// Whether places a < b of a polygon may have a side between them: one of its own, or none across a cube's
+// face.
+bool allowed(const std::vector<int>& polygon, std::size_t a, std::size_t b) {
+  return b - a == 1 || (a == 0 && b + 1 == polygon.size()) || !share_face(polygon[a], polygon[b]);
+}
+
+void add_triangle(const std::vector<int>& polygon, std::size_t a, std::size_t b, std::size_t c,
+                  CubeCase& result) {
+  result.edges[static_cast<std::size_t>(result.triangles++)] = {static_cast<std::uint8_t>(polygon[a]),
+                                                                static_cast<std::uint8_t>(polygon[b]),
+                                                                static_cast<std::uint8_t>(polygon[c])};
+}
+
 // Triangles over places first .. last of a polygon that is convex in its order; false where every way to
 // split it has a side across a cube's face.
 bool split(const std::vector<int>& polygon, std::size_t first, std::size_t last, CubeCase& result) {
   if (last - first < 2) return true;
-  const auto allowed = [&](std::size_t a, std::size_t b) {
-    return b - a == 1 || (a == 0 && b + 1 == polygon.size()) || !share_face(polygon[a], polygon[b]);
-  };
   for (std::size_t middle = first + 1; middle < last; ++middle) {
-    if (!allowed(first, middle) || !allowed(middle, last)) continue;
+    if (!allowed(polygon, first, middle) || !allowed(polygon, middle, last)) continue;
     const int before = result.triangles;
     if (split(polygon, first, middle, result) && split(polygon, middle, last, result)) {
-      result.edges[static_cast<std::size_t>(result.triangles++)] = {
-          static_cast<std::uint8_t>(polygon[first]), static_cast<std::uint8_t>(polygon[middle]),
-          static_cast<std::uint8_t>(polygon[last])};
+      add_triangle(polygon, first, middle, last, result);
       return true;
     }
     result.triangles = before;
+  }
+  return false;
+}
+
+// Triangles from one corner of a polygon to all of its other sides; false where none allows that.
+bool fan(std::vector<int> polygon, CubeCase& result) {
+  for (std::size_t turn = 0; turn < polygon.size(); ++turn) {
+    std::size_t place = 2;
+    while (place < polygon.size() && allowed(polygon, 0, place)) ++place;
+    if (place == polygon.size()) {
+      for (std::size_t k = 1; k + 1 < polygon.size(); ++k) add_triangle(polygon, 0, k, k + 1, result);
+      return true;
+    }
+    std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
   }
   return false;
 }
@@ -92,7 +115,11 @@ CubeCase make_case(int inside) {
       edge = following;
     }
     if (polygon.empty()) continue;
-    [[maybe_unused]] const bool done = split(polygon, 0, polygon.size() - 1, result);
+    // Of the ways to split seven corners some cross themselves, where the cuts lie far from the middles of
+    // their edges; triangles with a corner in common do not.
+    constexpr std::size_t least_corners_to_cross = 7;
+    const bool as_fan = polygon.size() >= least_corners_to_cross && fan(polygon, result);
+    [[maybe_unused]] const bool done = as_fan || split(polygon, 0, polygon.size() - 1, result);
     assert(done);
   }
   return result;

@@ -56,29 +56,63 @@ void add_lesser_fans(std::span<const Wedge> wedges, std::vector<std::uint32_t>& 
     if (fan != longest) faces.insert(faces.end(), fan->begin(), fan->end());
 }
 
+// The faces at one vertex, if two of them look away from each other.
+void add_folded_fan(const TriangleMesh& mesh, std::span<const Wedge> wedges,
+                    std::vector<std::uint32_t>& faces) {
+  constexpr double least_cosine = -0.5;
+  for (const Wedge& a : wedges)
+    for (const Wedge& b : wedges) {
+      if (b.face >= a.face) break;
+      const Eigen::Vector3d na = scaled_face_normal(mesh, a.face);
+      const Eigen::Vector3d nb = scaled_face_normal(mesh, b.face);
+      if (na.dot(nb) >= least_cosine * na.norm() * nb.norm()) continue;
+      for (const Wedge& w : wedges) faces.push_back(w.face);
+      return;
+    }
+}
+
+void drop_faces(TriangleMesh& mesh, const std::vector<std::uint32_t>& dropped) {
+  std::vector<std::uint8_t> keep(mesh.faces.size(), 1);
+  for (const std::uint32_t face : dropped) keep[face] = 0;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i)
+    if (keep[i]) mesh.faces[kept++] = mesh.faces[i];
+  mesh.faces.resize(kept);
+}
+
+// Drops the faces that `add` names of those at each vertex of the border. Returns at how many it named some.
+template <class Add>
+std::size_t drop_at_border(TriangleMesh& mesh, Add add) {
+  const std::vector<Wedge> wedges = border_wedges(mesh);
+  std::vector<std::uint32_t> dropped;
+  std::size_t vertices = 0;
+  for (auto begin = wedges.begin(); begin != wedges.end();) {
+    const auto end =
+        std::find_if(begin, wedges.end(), [&](const Wedge& w) { return w.vertex != begin->vertex; });
+    const std::size_t before = dropped.size();
+    add(std::span<const Wedge>(begin, end), dropped);
+    vertices += dropped.size() > before ? 1 : 0;
+    begin = end;
+  }
+  if (vertices > 0) drop_faces(mesh, dropped);
+  return vertices;
+}
+
 }  // namespace
 
 Cleaned without_touching_border_fans(TriangleMesh mesh) {
   Cleaned cleaned{std::move(mesh), 0};
-  while (true) {
-    const std::vector<Wedge> wedges = border_wedges(cleaned.mesh);
-    std::vector<std::uint32_t> dropped;
-    for (auto begin = wedges.begin(); begin != wedges.end();) {
-      const auto end =
-          std::find_if(begin, wedges.end(), [&](const Wedge& w) { return w.vertex != begin->vertex; });
-      const std::size_t before = dropped.size();
-      add_lesser_fans({begin, end}, dropped);
-      cleaned.removed += dropped.size() > before ? 1 : 0;
-      begin = end;
-    }
-    if (dropped.empty()) return cleaned;
-    std::vector<std::uint8_t> keep(cleaned.mesh.faces.size(), 1);
-    for (const std::uint32_t face : dropped) keep[face] = 0;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < keep.size(); ++i)
-      if (keep[i]) cleaned.mesh.faces[kept++] = cleaned.mesh.faces[i];
-    cleaned.mesh.faces.resize(kept);
-  }
+  while (const std::size_t vertices = drop_at_border(cleaned.mesh, add_lesser_fans))
+    cleaned.removed += vertices;
+  return cleaned;
+}
+
+Cleaned without_folded_border(TriangleMesh mesh) {
+  Cleaned cleaned{std::move(mesh), 0};
+  cleaned.removed = drop_at_border(cleaned.mesh, [&](auto wedges, std::vector<std::uint32_t>& faces) {
+    add_folded_fan(cleaned.mesh, wedges, faces);
+  });
+  return cleaned;
 }
 
 Cleaned without_small_pieces(TriangleMesh mesh, double percent) {

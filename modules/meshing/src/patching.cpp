@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "drape/base/parallel.hpp"
@@ -15,6 +17,7 @@
 #include "hole_patch.hpp"
 #include "hole_region.hpp"
 #include "least_crossing_patch.hpp"
+#include "patch_mending.hpp"
 
 namespace drape::meshing {
 namespace {
@@ -185,20 +188,18 @@ TriangleMesh assembled(const TriangleMesh& mesh, const std::vector<Work>& works)
 }
 
 // For each hole, how many pairs of faces its patch is part of that cross.
-std::vector<std::size_t> crossings_of(const TriangleMesh& patched, std::size_t faces_before,
-                                      const std::vector<Work>& works) {
+void count_crossings(const TriangleMesh& patched, std::size_t faces_before, std::vector<Work>& works) {
   std::vector<std::uint32_t> hole_of;
   for (std::uint32_t i = 0; i < works.size(); ++i)
     hole_of.insert(hole_of.end(), works[i].patch.faces.size(), i);
   std::vector<std::uint8_t> tested(patched.faces.size(), 0);
   std::fill(tested.begin() + static_cast<std::ptrdiff_t>(faces_before), tested.end(), 1);
-  std::vector<std::size_t> crossings(works.size(), 0);
+  for (Work& work : works) work.crossings = 0;
   for (const auto& [a, b] : self_intersecting_pairs(patched, tested)) {
-    if (b >= faces_before) ++crossings[hole_of[b - faces_before]];
+    if (b >= faces_before) ++works[hole_of[b - faces_before]].crossings;
     if (a >= faces_before && hole_of[a - faces_before] != hole_of[b - faces_before])
-      ++crossings[hole_of[a - faces_before]];
+      ++works[hole_of[a - faces_before]].crossings;
   }
-  return crossings;
 }
 
 // Each hole's faces in the mesh that its patches are assembled to: from first[i] up to first[i + 1].
@@ -208,17 +209,79 @@ std::vector<std::size_t> first_faces(std::size_t faces_before, const std::vector
   return first;
 }
 
-// Faces that a triangle between the loop's vertices may meet.
-std::vector<Face> faces_near(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+Eigen::AlignedBox3d box_of(const TriangleMesh& mesh, std::span<const std::uint32_t> vertices) {
   Eigen::AlignedBox3d box;
-  for (const std::uint32_t v : loop) box.extend(mesh.vertices[v]);
+  for (const std::uint32_t v : vertices) box.extend(mesh.vertices[v]);
+  return box;
+}
+
+// Faces with area that a triangle within this box may meet.
+std::vector<Face> faces_near(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box) {
   std::vector<Face> near;
-  for (const Face& f : mesh.faces) {
-    Eigen::AlignedBox3d its_box;
-    for (const std::uint32_t v : f) its_box.extend(mesh.vertices[v]);
-    if (box.intersects(its_box)) near.push_back(f);
-  }
+  for (const Face& f : mesh.faces)
+    if (f[0] != f[1] && box.intersects(box_of(mesh, f))) near.push_back(f);
   return near;
+}
+
+// A patch is no obstacle to the one that will replace it: faces without area stand in for its own, which are
+// returned. Corners alike make a face that crosses nothing.
+std::vector<Face> taken_out(TriangleMesh& patched, const Work& work, std::size_t first, std::size_t end) {
+  const auto from = patched.faces.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto to = patched.faces.begin() + static_cast<std::ptrdiff_t>(end);
+  std::vector<Face> own(from, to);
+  std::fill(from, to, Face{work.loop[0], work.loop[0], work.loop[0]});
+  return own;
+}
+
+// The faces of a patch between vertices of the mesh that it is part of, as the work's own.
+Patch own_patch(const Work& work, std::uint32_t first_new, const std::vector<Face>& faces) {
+  const auto size = static_cast<std::uint32_t>(work.loop.size());
+  std::unordered_map<std::uint32_t, std::uint32_t> place;
+  for (std::uint32_t i = 0; i < size; ++i) place.emplace(work.loop[i], i);
+  Patch patch;
+  for (Face f : faces) {
+    for (std::uint32_t& v : f) {
+      const auto [entry, is_new] = place.emplace(v, size + static_cast<std::uint32_t>(patch.vertices.size()));
+      if (is_new) patch.vertices.push_back(work.patch.vertices[v - first_new]);
+      v = entry->second;
+    }
+    patch.faces.push_back(f);
+  }
+  return patch;
+}
+
+// Patches that cross the surface in spots are triangulated anew there, one after the other, and stay as they
+// are elsewhere. `patched` is what all are assembled to.
+TriangleMesh with_spots_mended(const TriangleMesh& mesh, std::vector<Work>& works, const SpaceToKeep* keep,
+                               TriangleMesh patched) {
+  const std::vector<std::size_t> first = first_faces(mesh.faces.size(), works);
+  std::size_t first_new = mesh.vertices.size();
+  bool any = false;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    Work& work = works[i];
+    const auto first_vertex = static_cast<std::uint32_t>(first_new);
+    first_new += work.patch.vertices.size();
+    if (work.crossings == 0) continue;
+    const std::vector<Face> own = taken_out(patched, work, first[i], first[i + 1]);
+    Eigen::AlignedBox3d box;
+    for (const Face& f : own) box.extend(box_of(patched, f));
+    const MendedPatch mended = mended_patch(patched, own, faces_near(patched, box));
+    Patch patch = own_patch(work, first_vertex, mended.faces);
+    if (mended.crossings >= work.crossings ||
+        !closes_hole(patch, work.loop.size(), taken_chords(work.region)) ||
+        stands_in_seen_space(work, patch, keep)) {
+      std::copy(own.begin(), own.end(), patched.faces.begin() + static_cast<std::ptrdiff_t>(first[i]));
+      continue;
+    }
+    any = true;
+    work.patch = std::move(patch);
+    work.how += ", triangulated anew where it cut the surface";
+    patched.faces.insert(patched.faces.end(), mended.faces.begin(), mended.faces.end());
+  }
+  if (!any) return patched;
+  patched = assembled(mesh, works);
+  count_crossings(patched, mesh.faces.size(), works);
+  return patched;
 }
 
 // Where all of those cross the surface, the triangulation that crosses least is sought, one hole after the
@@ -229,17 +292,13 @@ TriangleMesh with_fewest_crossings(const TriangleMesh& mesh, std::vector<Work>& 
   bool any = false;
   for (std::size_t i = 0; i < works.size(); ++i) {
     Work& work = works[i];
-    if (work.crossings == 0) continue;
-    // Its own patch is no obstacle to it: corners alike make a face that crosses nothing.
-    const auto begin = patched.faces.begin() + static_cast<std::ptrdiff_t>(first[i]);
-    const auto end = patched.faces.begin() + static_cast<std::ptrdiff_t>(first[i + 1]);
-    const std::vector<Face> own(begin, end);
-    std::fill(begin, end, Face{work.loop[0], work.loop[0], work.loop[0]});
-    auto found = least_crossing_patch(patched, work.loop, faces_near(patched, work.loop));
+    if (work.crossings == 0 || work.loop.size() > most_edges_for_least_crossings) continue;
+    const std::vector<Face> own = taken_out(patched, work, first[i], first[i + 1]);
+    auto found = least_crossing_patch(patched, work.loop, faces_near(patched, box_of(patched, work.loop)));
     if (!found || found->crossings >= work.crossings ||
         !closes_hole(found->patch, work.loop.size(), taken_chords(work.region)) ||
         stands_in_seen_space(work, found->patch, keep)) {
-      std::copy(own.begin(), own.end(), begin);
+      std::copy(own.begin(), own.end(), patched.faces.begin() + static_cast<std::ptrdiff_t>(first[i]));
       continue;
     }
     any = true;
@@ -251,17 +310,22 @@ TriangleMesh with_fewest_crossings(const TriangleMesh& mesh, std::vector<Work>& 
   }
   if (!any) return patched;
   patched = assembled(mesh, works);
-  const std::vector<std::size_t> crossings = crossings_of(patched, mesh.faces.size(), works);
-  for (std::size_t i = 0; i < works.size(); ++i) works[i].crossings = crossings[i];
+  count_crossings(patched, mesh.faces.size(), works);
   return patched;
+}
+
+// The patches in the mesh, mended where they cross the surface, and the crossings that are left counted.
+TriangleMesh assembled_and_mended(const TriangleMesh& mesh, std::vector<Work>& works,
+                                  const SpaceToKeep* keep) {
+  TriangleMesh patched = assembled(mesh, works);
+  count_crossings(patched, mesh.faces.size(), works);
+  return with_spots_mended(mesh, works, keep, std::move(patched));
 }
 
 // Where a patch crosses the surface, the next less smooth one is tried; the one that crosses least stays.
 TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& works,
                                   const SpaceToKeep* keep) {
-  TriangleMesh result = assembled(mesh, works);
-  std::vector<std::size_t> crossings = crossings_of(result, mesh.faces.size(), works);
-  for (std::size_t i = 0; i < works.size(); ++i) works[i].crossings = crossings[i];
+  TriangleMesh result = assembled_and_mended(mesh, works, keep);
   for (const Kind kind : {Kind::refined, Kind::plain}) {
     std::vector<Work> tries = works;
     std::vector<Work*> changed;
@@ -273,11 +337,10 @@ TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& w
     if (changed.empty()) continue;
     make_patches(changed, keep);
     part_chords(tries);
-    crossings = crossings_of(assembled(mesh, tries), mesh.faces.size(), tries);
+    static_cast<void>(assembled_and_mended(mesh, tries, keep));
     for (std::size_t i = 0; i < works.size(); ++i) {
-      if (crossings[i] >= works[i].crossings || tries[i].patch.faces.empty()) continue;
+      if (tries[i].crossings >= works[i].crossings || tries[i].patch.faces.empty()) continue;
       works[i] = tries[i];
-      works[i].crossings = crossings[i];
       works[i].how += ": a smoother patch would cut the surface";
     }
     part_chords(works);

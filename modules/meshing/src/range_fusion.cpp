@@ -168,8 +168,10 @@ std::vector<SurfacePart> whole_surface(const FusionBlocks& blocks, const FusedFi
 }
 
 TriangleMesh cleaned(TriangleMesh mesh, double min_component_percent, Fused& fused) {
-  Cleaned cleaned = without_touching_border_fans(std::move(mesh));
+  Cleaned cleaned = without_folded_border(std::move(mesh));
   fused.touching_vertices = cleaned.removed;
+  cleaned = without_touching_border_fans(std::move(cleaned.mesh));
+  fused.touching_vertices += cleaned.removed;
   cleaned = without_small_pieces(std::move(cleaned.mesh), min_component_percent);
   fused.pieces_removed = cleaned.removed;
   drop_unused_vertices(cleaned.mesh);

@@ -23,7 +23,7 @@ struct FusionSizes {
 struct Fused {
   TriangleMesh mesh;
   std::size_t samples = 0;            // that are part of the surface of a scan
-  std::size_t touching_vertices = 0;  // where fans of faces touched
+  std::size_t touching_vertices = 0;  // where fans of faces touched, or the border was folded
   std::size_t pieces_removed = 0;
 };
 

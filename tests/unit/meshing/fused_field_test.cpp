@@ -11,6 +11,7 @@
 #include "drape/base/random.hpp"
 #include "drape/geometry/mesh_topology.hpp"
 #include "drape/meshing/mesh_quality.hpp"
+#include "field_cleaning.hpp"
 #include "field_smoothing.hpp"
 #include "marching_cubes.hpp"
 
@@ -122,6 +123,30 @@ TEST(FieldSmoothing, IsForNoise) {
   EXPECT_EQ(smoothing_rounds(1.2), 2);
 }
 
+TEST(FieldCleaning, WallsThatMeetAtTheBorderAreParted) {
+  // Two walls a tenth of a voxel apart that meet along a sharp bend, open at both ends of it.
+  TriangleMesh mesh;
+  constexpr std::uint32_t columns = 6;
+  for (std::uint32_t x = 0; x < columns; ++x)
+    for (const double y : {-2.0, -1.0, 0.0, 1.0, 2.0})
+      mesh.vertices.emplace_back(x, std::abs(y), y < 0 ? -0.05 * y : 0);
+  const auto add = [&](std::uint32_t x, std::uint32_t y) {
+    const std::uint32_t a = 5 * x + y;
+    mesh.faces.push_back({a, a + 5, a + 6});
+    mesh.faces.push_back({a, a + 6, a + 1});
+  };
+  for (std::uint32_t x = 0; x + 1 < columns; ++x)
+    for (std::uint32_t y = 0; y < 4; ++y) add(x, y);
+  const Cleaned cleaned = without_folded_border(mesh);
+  EXPECT_EQ(cleaned.removed, 2U);
+  EXPECT_EQ(cleaned.mesh.faces.size(), mesh.faces.size() - 6);
+
+  TriangleMesh flat = mesh;
+  for (std::size_t v = 0; v < flat.vertices.size(); ++v)
+    flat.vertices[v] = {static_cast<double>(v / 5), static_cast<double>(v % 5), 0};
+  EXPECT_EQ(without_folded_border(flat).removed, 0U);
+}
+
 TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
   const auto [blocks, field] = field_of_noise();
   const TriangleMesh mesh = surface_at_once(blocks, field);
@@ -137,6 +162,24 @@ TEST(CubeCases, AreClosedBetweenCubesWhateverTheField) {
       const Vector3d& p = mesh.vertices[v];
       EXPECT_TRUE((p.array() == 8).any() || (p.array() == 31).any()) << p.transpose();
     }
+}
+
+TEST(CubeCases, DoNotCrossThemselvesWhereverTheEdgesAreCut) {
+  Rng random(1);
+  for (std::size_t inside = 0; inside < 256; ++inside) {
+    const CubeCase& cube = cube_cases()[inside];
+    for (int trial = 0; trial < 200; ++trial) {
+      TriangleMesh mesh;
+      for (int edge = 0; edge < 12; ++edge) {
+        const int corner = edge_corner(edge);
+        mesh.vertices.emplace_back(corner & 1, (corner >> 1) & 1, corner >> 2);
+        mesh.vertices.back()[edge / 4] += random.uniform(0.02, 0.98);
+      }
+      for (std::size_t t = 0; t < static_cast<std::size_t>(cube.triangles); ++t)
+        mesh.faces.push_back({cube.edges[t][0], cube.edges[t][1], cube.edges[t][2]});
+      EXPECT_TRUE(self_intersecting_pairs(mesh).empty()) << "case " << inside;
+    }
+  }
 }
 
 TEST(CubeCases, OneCornerInsideIsCutOffOutward) {

@@ -106,11 +106,12 @@ struct FillResult {
 /// removed some; new vertices and faces follow. A hole's patch is triangulated (Liepa 2003: least dihedral
 /// angle, then area), refined to the density round it and faired (Botsch and Kobbelt 2004), all by CGAL; ear
 /// clipping or a fan stand in where that finds none. The patches of long loops are coarser, so that the cost
-/// stays bounded. A patch that would cut the surface is replaced by one that does so less, in the end by the
-/// triangulation of the hole that does so least (a border that runs through the surface leaves none that does
-/// not), and one that would stand in space that a scan saw through by one that does not, if there is any.
-/// Several borders that touch in one vertex are filled as separate simple loops; an island inside a hole, and
-/// the inner rim of a hollow base, are joined to the loop round them.
+/// stays bounded. A patch that would cut the surface is triangulated anew where it does, and where that does
+/// not help replaced by one that does so less, in the end by the triangulation of the hole that does so least
+/// (a border that runs through the surface leaves none that does not), and one that would stand in space that
+/// a scan saw through by one that does not, if there is any. Several borders that touch in one vertex are
+/// filled as separate simple loops; an island inside a hole, and the inner rim of a hollow base, are joined
+/// to the loop round them.
 ///
 /// `spacing` > 0, in the mesh's unit. Error{input} if the mesh breaks its promises (problem_of).
 [[nodiscard]] FillResult fill_holes(const TriangleMesh& mesh, double spacing, const FillOptions& options,
