@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -204,6 +205,46 @@ double pixels_in(const Image8& mask) {
   return count;
 }
 
+struct Likeness {
+  double one_minus_ncc = 0;
+  double psnr_db = 0;
+  double painted_percent = 0;  // of the outline
+  double seconds = 0;
+};
+
+// The hull painted by some of the photos and drawn from the place of one.
+Likeness likeness_of(const TriangleMesh& hull, const std::vector<lab::Outline>& outlines,
+                     const std::vector<Image8>& rgbs, const std::vector<std::size_t>& painters,
+                     std::size_t drawn, const texturing::TextureOptions& options, Image8& again) {
+  std::vector<texturing::TextureView> views;
+  for (const std::size_t i : painters)
+    views.push_back({rgbs[i], outlines[i].camera, outlines[i].stencil, fmt::format("{:03}_color", i)});
+  const auto start = std::chrono::steady_clock::now();
+  const auto result = texturing::texture_mesh(hull, hull, views, options);
+  Likeness found;
+  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Camera& camera = outlines[drawn].camera;
+  rendering::TexturedStyle style;
+  style.samples_per_side = 3;
+  again = rendering::render_textured(result.model, camera, style);
+  const Image8 seen = painted_of(result.model, camera, outlines[drawn].stencil);
+  found.one_minus_ncc = mean_one_minus_ncc(again, rgbs[drawn], seen);
+  found.psnr_db = metrics::psnr_db(again, rgbs[drawn], seen).value_or(0);
+  found.painted_percent = 100 * pixels_in(seen) / pixels_in(outlines[drawn].stencil);
+  return found;
+}
+
+// The photo taken nearest to one, from another side.
+std::size_t neighbor_of(const std::vector<lab::Outline>& outlines, std::size_t one) {
+  std::size_t nearest = one == 0 ? 1 : 0;
+  const auto distance = [&](std::size_t i) {
+    return (outlines[i].camera.center() - outlines[one].camera.center()).norm();
+  };
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+    if (i != one && distance(i) < distance(nearest)) nearest = i;
+  return nearest;
+}
+
 // A hull carved from every second photo, painted by the others but one, which is then drawn.
 void measure_dino(int left_out, texturing::TextureOptions options, const std::string& folder) {
   options.stencil_erode_px += 3;  // its stencils are larger than it by that much: see dino_stencil()
@@ -223,23 +264,27 @@ void measure_dino(int left_out, texturing::TextureOptions options, const std::st
              outlines.size(), painters.size());
   const std::size_t step = std::max<std::size_t>(1, painters.size() / static_cast<std::size_t>(left_out));
   for (std::size_t out = step / 2; out < painters.size(); out += step) {
-    std::vector<texturing::TextureView> views;
+    std::vector<std::size_t> others;
     for (std::size_t i = 0; i < painters.size(); ++i)
-      if (i != out)
-        views.push_back({rgbs[i], painters[i].camera, painters[i].stencil, fmt::format("{:03}_color", i)});
-    const auto start = std::chrono::steady_clock::now();
-    const auto result = texturing::texture_mesh(hull, hull, views, options);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Camera& camera = painters[out].camera;
-    rendering::TexturedStyle style;
-    style.samples_per_side = 3;
-    const Image8 again = rendering::render_textured(result.model, camera, style);
-    const Image8 seen = painted_of(result.model, camera, painters[out].stencil);
+      if (i != out) others.push_back(i);
+    Image8 unused;
+    Image8 again;
+    const std::size_t near = neighbor_of(painters, out);
+    const Likeness own = likeness_of(hull, painters, rgbs, {out}, out, options, unused);
+    const Likeness next = likeness_of(hull, painters, rgbs, {near}, out, options, unused);
+    const Likeness all = likeness_of(hull, painters, rgbs, others, out, options, again);
+    const double apart_deg =
+        std::acos(std::clamp((painters[out].camera.camera_from_world.linear() *
+                              painters[near].camera.camera_from_world.linear().transpose())
+                                     .trace() /
+                                 2 - 0.5,
+                             -1.0, 1.0)) *
+        180 / std::numbers::pi;
     fmt::print(
-        "dino {:3} left out: 1 - NCC {:.3f}  PSNR {:.1f} dB  painted in the outline {:.1f} %  {:.2f} s\n",
-        2 * out + 1, mean_one_minus_ncc(again, rgbs[out], seen),
-        metrics::psnr_db(again, rgbs[out], seen).value_or(0),
-        100 * pixels_in(seen) / pixels_in(painters[out].stencil), seconds);
+        "dino {:3} left out: 1 - NCC {:.3f}  PSNR {:.1f} dB  painted in the outline {:.1f} %  {:.2f} s; by its "
+        "own photo alone {:.3f}, {:.1f} dB; by the nearest, {:.0f} deg away, {:.3f}, {:.1f} dB\n",
+        2 * out + 1, all.one_minus_ncc, all.psnr_db, all.painted_percent, all.seconds, own.one_minus_ncc,
+        own.psnr_db, apart_deg, next.one_minus_ncc, next.psnr_db);
     if (folder.empty()) continue;
     io::write_image(fmt::format("{}/dino_{}_drawn.png", folder, 2 * out + 1), again);
     io::write_image(fmt::format("{}/dino_{}_photo.png", folder, 2 * out + 1), rgbs[out]);
