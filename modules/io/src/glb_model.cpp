@@ -151,7 +151,7 @@ class GlbBuilder {
     Json json = {{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}, {"doubleSided", true}};
     // JPEG's halved colours would tilt normals.
     if (!options_.unlit && !is_flat(material) && !material.normal_map.empty())
-      json["normalTexture"] = {{"index", texture(material.normal_map, material.name + "_normal", false)}};
+      json["normalTexture"] = {{"index", texture(material.normal_map, material.name + "_normal", false, Samples::numbers)}};
     if (options_.unlit) {
       json["extensions"] = {{"KHR_materials_unlit", Json::object()}};
       root_["extensionsUsed"] = {"KHR_materials_unlit"};
@@ -191,14 +191,14 @@ class GlbBuilder {
   }
 
  private:
-  int texture(const Image8& picture, const std::string& name, bool jpeg) {
+  int texture(const Image8& picture, const std::string& name, bool jpeg, Samples samples = Samples::srgb) {
     if (!root_.contains("samplers"))
       root_["samplers"] = {{{"magFilter", filter_linear},
                             {"minFilter", filter_linear_mipmap_linear},
                             {"wrapS", wrap_clamp},
                             {"wrapT", wrap_clamp}}};
     const int view = begin_view(0);
-    binary_ += encode_image(picture, jpeg ? "jpg" : "png", options_.jpeg_quality);
+    binary_ += encode_image(picture, jpeg ? "jpg" : "png", options_.jpeg_quality, samples);
     end_view();
     const int image = add(
         "images", {{"name", name}, {"bufferView", view}, {"mimeType", jpeg ? "image/jpeg" : "image/png"}});

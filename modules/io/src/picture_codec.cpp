@@ -1,5 +1,7 @@
 #include "picture_codec.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -139,6 +141,23 @@ cv::Mat decoded(const std::string& file, std::string_view bytes) {
   return mat;
 }
 
+std::string big_endian(std::uint32_t number) {
+  std::string bytes;
+  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(number >> shift & 0xFFU);
+  return bytes;
+}
+
+/// With the chunk that says that its colours are sRGB, to be shown as they look best; it has to come before
+/// the pixels, and does so right behind the header.
+std::string tagged_srgb(std::string png) {
+  constexpr std::size_t behind_header = 8 + 25;
+  constexpr char perceptual = 0;
+  const std::string body = std::string("sRGB") + perceptual;
+  const auto checksum = static_cast<std::uint32_t>(
+      ::crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size())));
+  return png.insert(behind_header, big_endian(1) + body + big_endian(checksum));
+}
+
 }  // namespace
 
 ImageF decode_depth(const std::string& file, std::string_view bytes) {
@@ -167,7 +186,8 @@ DecodedPicture decode_picture(const std::string& file, std::string_view bytes, b
                     file);
 }
 
-std::string encode_image(const Image8& image, const std::string& format, int jpeg_quality) {
+std::string encode_image(const Image8& image, const std::string& format, int jpeg_quality,
+                         Samples samples) {
   silence_opencv();
   const bool jpeg = format == "jpg" || format == "jpeg";
   if (!jpeg && format != "png") throw io_error("pictures are written as png or jpg, not as \"{}\"", format);
@@ -186,7 +206,8 @@ std::string encode_image(const Image8& image, const std::string& format, int jpe
   if (!done)
     throw io_error("an image of {} x {} pixels cannot be written as {}", image.width(), image.height(),
                    format);
-  return {bytes.begin(), bytes.end()};
+  const std::string encoded(bytes.begin(), bytes.end());
+  return !jpeg && image.channels() >= 3 && samples == Samples::srgb ? tagged_srgb(encoded) : encoded;
 }
 
 void write_image(const std::filesystem::path& file, const Image8& image, int jpeg_quality) {

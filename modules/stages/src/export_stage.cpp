@@ -248,7 +248,7 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
 pipeline::Stage export_stage() {
   pipeline::Stage stage;
   stage.name = "export";
-  stage.version = 5;
+  stage.version = 6;
   stage.summary = "Writes the model in the formats that viewers open; they are copied to `output`.";
   stage.input_parts = {"up"};
   stage.reads = {{"fill", "mesh.ply"},      {"fill", "mesh_simplified.ply"}, {"fill", "holes.json"},

@@ -142,6 +142,22 @@ TEST(PhotoFiles, PngOfEveryKind) {
   expect(test::png_file(1, 1, 16, 6, {"\xFF\xFF\x00\x00\x80\x80\x40\x40"s}), {255, 0, 128}, {64});
 }
 
+TEST(PhotoFiles, PngSaysThatItsColoursAreSrgb) {
+  using namespace std::string_literals;
+  const std::string chunk = "\0\0\0\1sRGB\0\xAE\xCE\x1C\xE9"s;  // of the specification's own example
+  const Image8 colors = smooth(8, 4);
+  const std::string png = io::encode_image(colors, "png");
+  EXPECT_EQ(png.find(chunk), 33U);
+  EXPECT_LT(png.find(chunk), png.find("IDAT"));
+  EXPECT_EQ(io::encode_image(Image8(8, 4, 4, 200), "png").find(chunk), 33U);
+  const test::ScratchFolder folder;
+  write_file(folder / "x.png", png);
+  EXPECT_EQ(io::read_photo(folder / "x.png").rgb, colors);
+  for (const std::string& other : {io::encode_image(Image8(8, 4, 1, 255), "png"),
+                                   io::encode_image(colors, "png", 95, io::Samples::numbers)})
+    EXPECT_EQ(other.find("sRGB"), std::string::npos);
+}
+
 TEST(PhotoFiles, StencilsOfEveryDepth) {
   const ScratchFolder folder;
   using namespace std::string_literals;

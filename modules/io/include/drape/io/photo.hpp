@@ -40,11 +40,18 @@ struct ImageSize {
 };
 [[nodiscard]] ImageSize read_photo_size(const std::filesystem::path& file);
 
+enum class Samples {
+  srgb,    // colours; a PNG says so
+  numbers  // of something else, as of a normal map
+};
+
 /// PNG or JPEG by extension (JPEG at the quality given, 1..100). 1, 3 or 4 channels; JPEG has no alpha and
 /// leaves it out. Error{io}.
 void write_image(const std::filesystem::path& file, const Image8& image, int jpeg_quality = 95);
 
-/// The same into memory: format "png" or "jpg".
-[[nodiscard]] std::string encode_image(const Image8& image, const std::string& format, int jpeg_quality = 95);
+/// The same into memory: format "png" or "jpg". A PNG of 3 or 4 channels of colours has the chunk that calls
+/// them sRGB (PNG, third edition, 11.3.2.5), so that viewers with other defaults show them right.
+[[nodiscard]] std::string encode_image(const Image8& image, const std::string& format, int jpeg_quality = 95,
+                                       Samples samples = Samples::srgb);
 
 }  // namespace drape::io
