@@ -276,12 +276,14 @@ void measure_dino(int left_out, texturing::TextureOptions options, const std::st
     const double apart_deg =
         std::acos(std::clamp((painters[out].camera.camera_from_world.linear() *
                               painters[near].camera.camera_from_world.linear().transpose())
-                                     .trace() /
-                                 2 - 0.5,
+                                         .trace() /
+                                     2 -
+                                 0.5,
                              -1.0, 1.0)) *
         180 / std::numbers::pi;
     fmt::print(
-        "dino {:3} left out: 1 - NCC {:.3f}  PSNR {:.1f} dB  painted in the outline {:.1f} %  {:.2f} s; by its "
+        "dino {:3} left out: 1 - NCC {:.3f}  PSNR {:.1f} dB  painted in the outline {:.1f} %  {:.2f} s; by "
+        "its "
         "own photo alone {:.3f}, {:.1f} dB; by the nearest, {:.0f} deg away, {:.3f}, {:.1f} dB\n",
         2 * out + 1, all.one_minus_ncc, all.psnr_db, all.painted_percent, all.seconds, own.one_minus_ncc,
         own.psnr_db, apart_deg, next.one_minus_ncc, next.psnr_db);

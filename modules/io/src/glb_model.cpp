@@ -151,7 +151,8 @@ class GlbBuilder {
     Json json = {{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}, {"doubleSided", true}};
     // JPEG's halved colours would tilt normals.
     if (!options_.unlit && !is_flat(material) && !material.normal_map.empty())
-      json["normalTexture"] = {{"index", texture(material.normal_map, material.name + "_normal", false, Samples::numbers)}};
+      json["normalTexture"] = {
+          {"index", texture(material.normal_map, material.name + "_normal", false, Samples::numbers)}};
     if (options_.unlit) {
       json["extensions"] = {{"KHR_materials_unlit", Json::object()}};
       root_["extensionsUsed"] = {"KHR_materials_unlit"};

@@ -186,8 +186,7 @@ DecodedPicture decode_picture(const std::string& file, std::string_view bytes, b
                     file);
 }
 
-std::string encode_image(const Image8& image, const std::string& format, int jpeg_quality,
-                         Samples samples) {
+std::string encode_image(const Image8& image, const std::string& format, int jpeg_quality, Samples samples) {
   silence_opencv();
   const bool jpeg = format == "jpg" || format == "jpeg";
   if (!jpeg && format != "png") throw io_error("pictures are written as png or jpg, not as \"{}\"", format);

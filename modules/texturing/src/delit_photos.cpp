@@ -8,6 +8,7 @@
 #include "drape/base/parallel.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/rendering/shadow_map.hpp"
+#include "like_paint.hpp"
 #include "linear_light.hpp"
 
 namespace drape::texturing {
@@ -100,6 +101,11 @@ class Gatherer {
             {static_cast<int>(i), {face, point, normal}, Transfer::Zero(), log_of(*light)});
       }
     add_pairs(at, width, height, evidence);
+    std::vector<std::uint32_t> own;
+    for (const std::int64_t s : at)
+      if (s != nothing) own.push_back(static_cast<std::uint32_t>(s));
+    const std::vector<LightPair> like = pairs_of_like_paint(evidence.samples, own);
+    evidence.pairs.insert(evidence.pairs.end(), like.begin(), like.end());
   }
 
   // Near and farther neighbours: shading goes on smoothly, so its share grows with the distance.

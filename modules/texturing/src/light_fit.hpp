@@ -18,7 +18,7 @@ struct LightSample {
   Transfer transfer;
   Eigen::Vector3f log_color;  // log of linear light
 };
-/// Two samples of one photo, near each other on the surface.
+/// Two samples of one photo, near each other on the surface or of like colour.
 struct LightPair {
   std::uint32_t a;
   std::uint32_t b;

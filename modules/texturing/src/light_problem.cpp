@@ -24,15 +24,6 @@ double slope_of(double s) {
   return 1 / std::max(s, least_shading);
 }
 
-// How far the log of each channel can be trusted, 0..1: of two colours.
-Array3d certainty(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  const auto one = [](const Eigen::Vector3f& log_color) {
-    const Array3d light = log_color.cast<double>().array().exp();
-    return Array3d(light.square() / (light.square() + noise_light * noise_light));
-  };
-  return one(a) * one(b);
-}
-
 // The log shading of one photo at one sample, and how it goes with the light.
 struct Shade {
   int photo;
@@ -241,6 +232,14 @@ std::vector<std::uint32_t> thinned(std::size_t count, std::size_t most, Of of_it
 }
 
 }  // namespace
+
+Array3d certainty(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  const auto one = [](const Eigen::Vector3f& log_color) {
+    const Array3d light = log_color.cast<double>().array().exp();
+    return Array3d(light.square() / (light.square() + noise_light * noise_light));
+  };
+  return one(a) * one(b);
+}
 
 Row LightShape::row(const LightSample& sample, std::size_t index) const {
   Row row(transfer_size + static_cast<Eigen::Index>(lamps.size()));

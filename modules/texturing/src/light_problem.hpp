@@ -11,6 +11,9 @@ namespace drape::texturing {
 
 inline constexpr int most_lamps = 2;
 
+/// How far the log of each channel can be trusted, 0..1, of two log colours: dark ones are noise.
+[[nodiscard]] Eigen::Array3d certainty(const Eigen::Vector3f& a, const Eigen::Vector3f& b);
+
 /// One light's strengths, of no colour. Colour is the photos' affair: their gains.
 struct LightShape {
   Eigen::VectorXd values;                 // transfer_size + lamps

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "delit_photos.hpp"
+#include "like_paint.hpp"
 #include "linear_light.hpp"
 #include "painted_object.hpp"
 #include "photo_sights.hpp"
@@ -103,6 +104,31 @@ TEST(DelitPhotos, UnderTwoLightsAgreeOnThePaint) {
   EXPECT_GT(d.result.spread.before, 0.2);
   EXPECT_LT(d.result.spread.after, 0.3 * d.result.spread.before);
   EXPECT_LT(share_left(d), 0.6);
+}
+
+TEST(LikePaint, IsOfOneChromaticityHoweverBright) {
+  const std::vector<Eigen::Vector3f> paints = {{0.6F, 0.3F, 0.2F}, {0.3F, 0.32F, 0.4F}};
+  std::vector<LightSample> samples;
+  for (int i = 0; i < 400; ++i) {
+    const float light = 0.15F + 0.002F * static_cast<float>(i);
+    const Eigen::Vector3f color = light * paints[static_cast<std::size_t>(i % 2)];
+    samples.push_back({0, {}, Transfer::Zero(), color.array().log()});
+  }
+  // As dark as noise: no chromaticity can be told.
+  for (int i = 0; i < 50; ++i)
+    samples.push_back({0, {}, Transfer::Zero(), Eigen::Vector3f::Constant(std::log(0.003F))});
+  std::vector<std::uint32_t> own;
+  for (std::uint32_t i = 0; i < samples.size(); ++i) own.push_back(i);
+  const std::vector<LightPair> pairs = pairs_of_like_paint(samples, own);
+  EXPECT_GT(pairs.size(), 2000U);
+  double farthest = 0;
+  for (const LightPair& p : pairs) {
+    ASSERT_LT(std::max(p.a, p.b), 400U);
+    ASSERT_NE(p.a, p.b);
+    EXPECT_EQ(p.a % 2, p.b % 2);
+    farthest = std::max<double>(farthest, std::abs(static_cast<double>(p.a) - p.b));
+  }
+  EXPECT_GT(farthest, 300);
 }
 
 }  // namespace
