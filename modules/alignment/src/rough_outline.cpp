@@ -108,6 +108,7 @@ SettledPoses settled_poses(const std::vector<RefinedPose>& poses, const OutlineM
   const int last = evidence.levels() - 1;
   result.noise = noise_about(mesh, poses.front().pose, evidence, last);
   if (result.noise.sigma_px < rough_px) {
+    result.smooth = true;
     result.poses = fitted_to_pixels(poses, mesh, evidence, lens);
     return result;
   }

@@ -23,6 +23,7 @@ struct PhotoInside {
 struct SettledPoses {
   std::vector<RefinedPose> poses;
   OutlineNoise noise;   // about the best pose
+  bool smooth = false;  // the best pose, and what scores nearly as well, were fitted to the pixels
   bool shaded = false;  // the photo's inside had a say in the best pose
 };
 [[nodiscard]] SettledPoses settled_poses(const std::vector<RefinedPose>& poses, const OutlineMesh& mesh,

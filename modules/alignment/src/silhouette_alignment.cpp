@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "color_appearance.hpp"
 #include "color_evidence.hpp"
@@ -32,7 +33,8 @@ namespace {
 constexpr double radians = std::numbers::pi / 180;
 constexpr int coarse_faces = 1500;
 constexpr int middle_faces = 8000;
-constexpr double fits_well = 0.965;  // of an outline: with less there may be a better pose near by
+constexpr double fits_well = 0.965;          // of an outline: with less there may be a better pose near by
+constexpr double smooth_distance_px = 0.03;  // of a smooth outline, in the mean
 constexpr int least_object_px = 8;
 constexpr double explained_weight = 0.5;  // of the look inside, against the outline's score
 
@@ -194,6 +196,43 @@ std::unique_ptr<Evidence> chosen_evidence(const PhotoEvidence& evidence, const A
   return std::make_unique<StencilEvidence>(evidence.stencil, plane);
 }
 
+// Whether a pose next to this one may fit better: much of the outline does not fit, or of a smooth outline
+// all of it fits, but not as the right pose's would. An open mesh's overlap tells nothing.
+bool worth_looking_near(const SettledPoses& settled, const OutlineFigures& figures, const OutlineMesh& mesh,
+                        const StencilEvidence& stencil) {
+  if (figures.fits < fits_well) return true;
+  return !mesh.open && settled.smooth &&
+         stencil.mean_distance_px(settled.poses.front().agreement.overlap) > smooth_distance_px;
+}
+
+struct SettledOutline {
+  SettledPoses settled;
+  OutlineFigures figures;
+};
+
+SettledOutline settled_on_outline(const std::vector<RefinedPose>& found, const MeshLevels& meshes,
+                                  const StencilEvidence& stencil, double object_px,
+                                  const SearchSettings& settings, const std::optional<PhotoInside>& inside,
+                                  const Progress& progress) {
+  const auto settle = [&](const std::vector<RefinedPose>& poses) {
+    SettledOutline result{settled_poses(poses, meshes.full, stencil, settings.lens, inside, progress), {}};
+    // Some may have become the same.
+    result.settled.poses = distinct_poses(std::move(result.settled.poses), poses.size());
+    result.figures = outline_figures(meshes.full, result.settled.poses.front().pose, stencil,
+                                     result.settled.noise, object_px);
+    result.figures.by_photo = result.settled.shaded;
+    return result;
+  };
+  SettledOutline first = settle(found);
+  if (!worth_looking_near(first.settled, first.figures, meshes.full, stencil)) return first;
+  std::vector<RefinedPose> all =
+      search_near(first.settled.poses.front().pose, meshes, stencil, settings.lens, progress);
+  if (settings.allowed)
+    std::erase_if(all, [&](const RefinedPose& pose) { return !settings.allowed(pose.pose); });
+  all.insert(all.end(), found.begin(), found.end());
+  return settle(distinct_poses(std::move(all), found.size() + 1));
+}
+
 }  // namespace
 
 SoughtMesh::SoughtMesh(const TriangleMesh& whole)
@@ -215,25 +254,10 @@ Alignment align_silhouette(const SoughtMesh& sought, const PhotoEvidence& eviden
   if (const auto* stencil = dynamic_cast<const StencilEvidence*>(outline.get()); stencil && !poses.empty()) {
     std::optional<PhotoInside> inside;
     if (evidence.photo != nullptr) inside.emplace(PhotoInside{*evidence.photo, plane, mesh.colors});
-    const auto settle = [&] {
-      SettledPoses settled = settled_poses(poses, meshes.full, *stencil, settings.lens, inside, progress);
-      const std::size_t count = settled.poses.size();
-      poses = distinct_poses(std::move(settled.poses), count);  // some may have become the same
-      figures = outline_figures(meshes.full, poses.front().pose, *stencil, settled.noise,
-                                object_extent(evidence.stencil));
-      figures.by_photo = settled.shaded;
-    };
-    settle();
-    if (figures.fits < fits_well) {
-      std::vector<RefinedPose> near =
-          search_near(poses.front().pose, meshes, *stencil, settings.lens, progress);
-      if (settings.allowed)
-        std::erase_if(near, [&](const RefinedPose& pose) { return !settings.allowed(pose.pose); });
-      poses = found.poses;
-      poses.insert(poses.end(), near.begin(), near.end());
-      poses = distinct_poses(std::move(poses), found.poses.size() + 1);
-      settle();
-    }
+    SettledOutline settled = settled_on_outline(found.poses, meshes, *stencil,
+                                                object_extent(evidence.stencil), settings, inside, progress);
+    poses = std::move(settled.settled.poses);
+    figures = settled.figures;
   }
   Alignment alignment = judged(poses, figures, settings, evidence, mesh, sphere, plane, options);
   if (const auto* colors = dynamic_cast<const ColorEvidence*>(outline.get());

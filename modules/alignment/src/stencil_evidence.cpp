@@ -250,6 +250,14 @@ std::vector<OutlinePiece> StencilEvidence::pieces(const OutlineDrawing& drawing,
   return pieces;
 }
 
+double StencilEvidence::mean_distance_px(double overlap) const {
+  const StencilLevel& level = levels_.back();
+  std::int64_t pixels = 0;
+  for (const std::uint64_t word : level.object.words()) pixels += std::popcount(word);
+  return (1 - overlap) * static_cast<double>(pixels) / std::max(1.0, level.contour_length) /
+         level.window.px_per_photo_px;
+}
+
 Agreement StencilEvidence::compared(const OutlineDrawing& drawing, int level_index, double reach,
                                     double inlier_px, std::vector<RimResidual>& residuals,
                                     std::vector<OutlinePiece>* pieces) const {

@@ -33,6 +33,10 @@ class StencilEvidence final : public Evidence {
   [[nodiscard]] std::vector<OutlinePiece> pieces(const OutlineDrawing& drawing, int level, double reach_px,
                                                  double inlier_px) const;
 
+  /// How far two outlines that overlap so much (0..1) are apart in the mean, in photo pixels, if it is along
+  /// all of the photo's.
+  [[nodiscard]] double mean_distance_px(double overlap) const;
+
   [[nodiscard]] const StencilLevel& at(int level) const { return levels_[static_cast<std::size_t>(level)]; }
 
  private:

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 
 #include "bodies.hpp"
@@ -65,6 +66,16 @@ TEST_F(NearSearch, KeepsALensThatIsFixed) {
   for (const RefinedPose& found :
        search_near(off_by(4, 1, truth_.perspective), meshes_, evidence_, lens_, {}))
     EXPECT_NEAR(found.pose.scale / found.pose.perspective, *lens_.fixed_focal_px, 1e-6);
+}
+
+TEST_F(NearSearch, OverlapTellsHowFarOutlinesAreApart) {
+  Image8 disc(200, 200, 1, stencil::background);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x)
+      if (std::hypot(x + 0.5 - 100, y + 0.5 - 100) < 60) disc.at(x, y) = stencil::object;
+  const StencilEvidence evidence(disc, PhotoPlane(200, 200, std::nullopt));
+  EXPECT_EQ(evidence.mean_distance_px(1), 0);
+  EXPECT_NEAR(evidence.mean_distance_px(60.0 * 60 / (61 * 61)), 1, 0.05);  // a pixel more all round
 }
 
 TEST_F(NearSearch, DistinctPosesAreFartherApart) {
