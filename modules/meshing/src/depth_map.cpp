@@ -10,6 +10,11 @@ Eigen::Vector4f value_of(const RangeSample& s) {
   return {s.depth, s.slope_x, s.slope_y, s.weight};
 }
 
+// How much deeper than the sample its tangent plane is at a pixel, in pixels' widths.
+float plane_at(const RangeSample& s, int column, int row) {
+  return s.slope_x * (static_cast<float>(column) - s.column) + s.slope_y * (static_cast<float>(row) - s.row);
+}
+
 void draw(DepthMap& map, const RangeSheet& sheet, const Face& face) {
   const std::array<const RangeSample*, 3> corner{&sheet.samples[face[0]], &sheet.samples[face[1]],
                                                  &sheet.samples[face[2]]};
@@ -30,8 +35,10 @@ void draw(DepthMap& map, const RangeSheet& sheet, const Face& face) {
       const float c = (bx * y - by * x) / area;
       const float a = 1 - b - c;
       if (a < slack || b < slack || c < slack) continue;
-      const Eigen::Vector4f value =
-          a * value_of(*corner[0]) + b * value_of(*corner[1]) + c * value_of(*corner[2]);
+      Eigen::Vector4f value = a * value_of(*corner[0]) + b * value_of(*corner[1]) + c * value_of(*corner[2]);
+      value[0] +=
+          map.bulge(value[0], a * plane_at(*corner[0], column, row) + b * plane_at(*corner[1], column, row) +
+                                  c * plane_at(*corner[2], column, row));
       const std::size_t pixel = map.index(column, row);
       Eigen::Vector4f& there = map.pixels[pixel];
       if (there[3] > 0 && there[0] <= value[0]) continue;

@@ -30,7 +30,14 @@ struct DepthMap {
            static_cast<std::size_t>(column);
   }
 
-  /// Bilinear between pixels of one surface, the nearest pixel's tangent plane beside an edge; weight 0 if
+  /// What is to be added to a depth between samples or pixels, weighted by their places, where their tangent
+  /// planes, weighted alike, lie `planes` pixels' widths off it. A surface that bends lies in the middle
+  /// between its chords and its tangent planes, exactly so where it is quadratic.
+  [[nodiscard]] float bulge(float depth, float planes) const {
+    return 0.5F * planes * static_cast<float>(sight.width_at(static_cast<double>(depth)));
+  }
+
+  /// Quadratic between pixels of one surface, the nearest pixel's tangent plane beside an edge; weight 0 if
   /// that one has none.
   [[nodiscard]] Eigen::Vector4f at(float column, float row) const {
     if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns - 1) &&
@@ -47,7 +54,14 @@ struct DepthMap {
     if (!(nearest[3] > 0 && one_surface(nearest, upper[0]) && one_surface(nearest, upper[1]) &&
           one_surface(nearest, lower[0]) && one_surface(nearest, lower[1])))
       return along_plane(nearest, u - (u < 0.5F ? 0.0F : 1.0F), v - (v < 0.5F ? 0.0F : 1.0F));
-    return (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
+    Eigen::Vector4f value =
+        (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
+    const float across =
+        (1 - u) * u * ((1 - v) * (upper[0][1] - upper[1][1]) + v * (lower[0][1] - lower[1][1]));
+    const float down =
+        (1 - v) * v * ((1 - u) * (upper[0][2] - lower[0][2]) + u * (upper[1][2] - lower[1][2]));
+    value[0] += bulge(value[0], across + down);
+    return value;
   }
 
   /// Of the pixel that the place lies in; nullptr outside of the picture.

@@ -35,7 +35,7 @@ struct FusedField {
 
 /// Curless and Levoy 1996: per voxel the weighted mean of its distances from the scans' surfaces. Each is the
 /// distance along the line of sight times the cosine of the incidence, which is that from the tangent plane,
-/// bilinear from the scan's depth map, truncated at 3 voxels; the weight falls to 0 over the rear half behind
+/// from the scan's depth map, truncated at 3 voxels; the weight falls to 0 over the rear half behind
 /// a surface. What lies behind one surface but nearer to another of the opposite normal is no evidence
 /// against that one: the two sides of a thin sheet do not cancel. Nor is it evidence, with less weight, where
 /// another scan saw through: beside an edge a steep surface's rear reaches out of the object.

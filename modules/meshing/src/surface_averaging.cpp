@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <utility>
 
 namespace drape::meshing {
 namespace {
@@ -15,6 +17,38 @@ std::vector<Eigen::Vector3f> unit_normals(const std::vector<RangeSample>& sample
       normals[i] = Eigen::Vector3f(samples[i].slope_x, samples[i].slope_y, -1).normalized();
   });
   return normals;
+}
+
+// Averages round off the normals beside a crease: a sample there takes the mean normal of the neighbours of
+// that one of its own neighbours whose surroundings differ much less than its own, to `ratio` of that at most
+// (Kuwahara et al. 1976, on normals). Elsewhere no sample changes.
+std::vector<RangeSample> with_sharp_creases(std::vector<RangeSample> samples,
+                                            const SampleNeighbors& neighbors, float ratio) {
+  constexpr std::size_t least_seen = 6;
+  const std::vector<Eigen::Vector3f> normals = unit_normals(samples);
+  std::vector<Eigen::Vector3f> sums(samples.size(), Eigen::Vector3f::Zero());
+  std::vector<float> spreads(samples.size(), std::numeric_limits<float>::infinity());
+  neighbors.for_all([&](std::size_t i, std::span<const std::uint32_t> around) {
+    if (!seen(samples[i])) return;
+    sums[i] = normals[i];
+    std::size_t count = 1;
+    for (const std::uint32_t j : around) {
+      if (!seen(samples[j])) continue;
+      sums[i] += normals[j];
+      ++count;
+    }
+    if (count >= least_seen) spreads[i] = 1 - sums[i].norm() / static_cast<float>(count);
+  });
+  neighbors.for_all([&](std::size_t i, std::span<const std::uint32_t> around) {
+    if (!seen(samples[i])) return;
+    std::size_t best = i;
+    for (const std::uint32_t j : around)
+      if (spreads[j] < spreads[best]) best = j;
+    if (!(spreads[best] < ratio * spreads[i]) || !(sums[best].z() < 0)) return;
+    samples[i].slope_x = -sums[best].x() / sums[best].z();
+    samples[i].slope_y = -sums[best].y() / sums[best].z();
+  });
+  return samples;
 }
 
 // Deviation of the difference between the normals of neighbours. Those of adjacent ones have most of their
@@ -116,6 +150,13 @@ RangeSample averaged(const std::vector<RangeSample>& samples, const Likeness& li
   return result;
 }
 
+RangeSample part_of_the_way(const RangeSample& from, RangeSample to, float part) {
+  to.depth = from.depth + part * (to.depth - from.depth);
+  to.slope_x = from.slope_x + part * (to.slope_x - from.slope_x);
+  to.slope_y = from.slope_y + part * (to.slope_y - from.slope_y);
+  return to;
+}
+
 float averaged(const std::vector<float>& values, const Likeness& likeness, std::size_t center,
                std::span<const std::uint32_t> around, int stride) {
   const float spacing = likeness.spacing(center);
@@ -132,11 +173,16 @@ float averaged(const std::vector<float>& values, const Likeness& likeness, std::
 
 // How samples are averaged.
 struct Averaging {
-  std::vector<int> strides;  // of the rounds
+  struct Round {
+    int stride = 1;
+    float share = 1;  // of the way to the average
+  };
+  std::vector<Round> rounds;
   // What a neighbour says of a sample's depth is by the sample's tangent plane and, to this share, by its
   // own. Where the surface bends the two err by as much to either side.
   float share_of_its_plane = 0;
-  float share_of_rest = 1;  // of what the rounds took away and a second time leave
+  float share_of_rest = 1;        // of what the rounds took away and a second time leave
+  float crease_spread_ratio = 0;  // see with_sharp_creases; 0: creases are left as the rounds make them
 };
 
 // With fewer rounds noise is left, with more shape goes: on simulated scans of two shapes these do best at
@@ -145,15 +191,21 @@ struct Averaging {
 // does not need that, and creases keep their place without.
 Averaging averaging_for(float noise, bool on_lattice) {
   Averaging averaging;
-  if (noise >= 0.1F) averaging.strides = {1};
-  if (noise >= 0.15F) averaging.strides = {1, 2};
-  if (noise >= 0.3F) averaging.strides = {1, 2, 2};
-  if (noise >= 0.5F) averaging.strides = {1, 2, 2, 4};
-  if (noise >= 0.5F && on_lattice) averaging = {{1, 2, 2, 4, 4}, 0.65F, 0.6F};
-  if (on_lattice) return averaging;
+  if (noise >= 0.1F) averaging.rounds = {{1}};
+  if (noise >= 0.15F) averaging.rounds = {{1}, {2}};
+  if (noise >= 0.3F) averaging.rounds = {{1}, {2}, {2}};
+  if (on_lattice) {
+    const float heavy = std::clamp((noise - 0.4F) / 0.2F, 0.0F, 1.0F);
+    if (heavy > 0) averaging.rounds.insert(averaging.rounds.end(), 2, {4, heavy});
+    averaging.share_of_its_plane = 0.65F * heavy;
+    averaging.share_of_rest = 1 - 0.4F * heavy;
+    averaging.crease_spread_ratio = 0.5F * heavy;
+    return averaging;
+  }
+  if (noise >= 0.5F) averaging.rounds.push_back({4});
   std::size_t rounds = 0;
-  for (const int stride : averaging.strides) rounds += static_cast<std::size_t>(stride * stride);
-  averaging.strides.assign(rounds, 1);
+  for (const auto& [stride, share] : averaging.rounds) rounds += static_cast<std::size_t>(stride * stride);
+  averaging.rounds.assign(rounds, {1});
   return averaging;
 }
 
@@ -170,26 +222,32 @@ std::vector<RangeSample> averaged_over_surfaces(std::vector<RangeSample> samples
                                                 const SampleNeighbors& neighbors, const Sight& sight,
                                                 float noise) {
   const Averaging averaging = averaging_for(noise, neighbors.has_strides());
-  const std::vector<int>& strides = averaging.strides;
-  if (strides.empty()) return samples;
+  if (averaging.rounds.empty()) return samples;
   std::vector<float> rest(samples.size(), 0.0F);
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = samples[i].depth;
-  for (const int stride : strides) {
+  bool first = true;
+  for (const auto& [stride, share] : averaging.rounds) {
+    // The first normals are mostly noise: there are no creases to be told from it yet.
+    if (averaging.crease_spread_ratio > 0 && !first)
+      samples = with_sharp_creases(std::move(samples), neighbors, averaging.crease_spread_ratio);
+    first = false;
     const std::vector<RangeSample> before = samples;
     const Likeness likeness(before, neighbors, sight, noise, stride, averaging.share_of_its_plane);
     neighbors.for_all(
-        [&](std::size_t i, std::span<const std::uint32_t> around) {
-          if (seen(before[i])) samples[i] = averaged(before, likeness, i, around, stride);
+        [&, part = share, step = stride](std::size_t i, std::span<const std::uint32_t> around) {
+          if (seen(before[i]))
+            samples[i] = part_of_the_way(before[i], averaged(before, likeness, i, around, step), part);
         },
         stride);
   }
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= samples[i].depth;
-  const Likeness likeness(samples, neighbors, sight, noise, strides.back(), averaging.share_of_its_plane);
-  for (const int stride : strides) {
+  const Likeness likeness(samples, neighbors, sight, noise, averaging.rounds.back().stride,
+                          averaging.share_of_its_plane);
+  for (const auto& [stride, share] : averaging.rounds) {
     const std::vector<float> before = rest;
     neighbors.for_all(
-        [&](std::size_t i, std::span<const std::uint32_t> around) {
-          if (seen(samples[i])) rest[i] = averaged(before, likeness, i, around, stride);
+        [&, part = share, step = stride](std::size_t i, std::span<const std::uint32_t> around) {
+          if (seen(samples[i])) rest[i] += part * (averaged(before, likeness, i, around, step) - before[i]);
         },
         stride);
   }

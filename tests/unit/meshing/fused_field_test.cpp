@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cube_cases.hpp"
+#include "depth_map.hpp"
 #include "drape/base/random.hpp"
 #include "drape/geometry/mesh_topology.hpp"
 #include "drape/meshing/mesh_quality.hpp"
@@ -121,6 +122,27 @@ TEST(FieldSmoothing, IsForNoise) {
   EXPECT_EQ(smoothing_rounds(0.1), 0);
   EXPECT_EQ(smoothing_rounds(0.6), 1);
   EXPECT_EQ(smoothing_rounds(1.2), 2);
+}
+
+TEST(DepthMaps, FollowABendBetweenSamples) {
+  // A paraboloid's samples at every third pixel: chords lie up to .04 off it.
+  const auto depth = [](float x, float y) { return 50 + 0.02F * x * x + 0.01F * y * y; };
+  RangeSheet sheet;
+  constexpr std::uint32_t side = 8;
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const float column = 3 + 3 * static_cast<float>(x);
+      const float row = 3 + 3 * static_cast<float>(y);
+      sheet.samples.push_back({column, row, depth(column, row), 0.04F * column, 0.02F * row, 1});
+      const std::uint32_t a = y * side + x;
+      if (x + 1 == side || y + 1 == side) continue;
+      sheet.faces.push_back({a, a + 1, a + side + 1});
+      sheet.faces.push_back({a, a + side + 1, a + side});
+    }
+  const DepthMap map = depth_map(sheet, false, 6);
+  for (float row = 4.3F; row < 23; row += 0.7F)
+    for (float column = 4.1F; column < 23; column += 0.9F)
+      EXPECT_NEAR(map.at(column, row)[0], depth(column, row), 1e-3) << column << ", " << row;
 }
 
 TEST(FieldCleaning, WallsThatMeetAtTheBorderAreParted) {

@@ -121,6 +121,24 @@ TEST(Fusion, HeavyNoiseDoesNotShrinkWhatIsRound) {
   EXPECT_NEAR(sum / static_cast<double>(mesh.vertices.size()), 0, 0.03);
 }
 
+TEST(Fusion, HeavyNoiseLeavesCreasesSharp) {
+  // A roof of 100 degrees.
+  const DistanceField roof = [](const Vector3d& p) {
+    return std::cos(50 * pi / 180) * std::abs(p.x()) + std::sin(50 * pi / 180) * p.z();
+  };
+  LatticeSetup setup;
+  setup.noise = 0.8;
+  const TriangleMesh mesh = fuse(scans_of(roof, {{0, 0, 1}, {0.1, 0.3, 1}, {-0.2, -0.1, 1}}, setup)).mesh;
+  double squares = 0;
+  double count = 0;
+  for (const Vector3d& p : mesh.vertices) {
+    if (std::abs(p.x()) > 2 || std::abs(p.y()) > 12) continue;
+    squares += std::pow(roof(p), 2);
+    count += 1;
+  }
+  EXPECT_LT(std::sqrt(squares / count), 0.3 * setup.noise);
+}
+
 TEST(Fusion, SharpEdgesOfABoxStayClosed) {
   const TriangleMesh mesh = fuse(scans_of(test::box_field({15, 12, 10}), six_sides())).mesh;
   expect_sound(mesh);
