@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "drape/base/error.hpp"
 #include "drape/base/random.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "point_merging.hpp"
@@ -180,12 +181,20 @@ TriangleMesh poisson_mesh(const PointCloud& samples, const PoissonSizes& sizes, 
       watched, Kernel::Sphere_3(inner, sphere_radius * sphere_radius), distance / 20 / sphere_radius);
   Triangulation triangulation;
   SurfaceComplex complex(triangulation);
-  constexpr double seeds_apart =
-      8;  // in facet radii  // in facet radii  // in facet radii  // in facet radii
+  constexpr double seeds_apart = 8;  // in facet radii
   insert_seeds(samples, frame, seeds_apart * sizes.facet_radius, function, triangulation);
   constexpr double least_angle_deg = 20;  // the algorithm is proven to end up to 30
   const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(least_angle_deg, radius, distance);
-  CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_with_boundary_tag());
+  // Where the function hardly changes, as round samples of one plane, CGAL's mesher meets the surface twice in
+  // one place and says so by an assertion.
+  try {
+    CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_with_boundary_tag());
+  } catch (const CGAL::Failure_exception&) {
+    throw input_error(
+        "mesh.method poisson finds no closed surface round the {} samples, as happens where they are flat; "
+        "advancing_front needs none",
+        samples.size());
+  }
   return extract(triangulation, frame);
 }
 
