@@ -185,8 +185,8 @@ TriangleMesh poisson_mesh(const PointCloud& samples, const PoissonSizes& sizes, 
   insert_seeds(samples, frame, seeds_apart * sizes.facet_radius, function, triangulation);
   constexpr double least_angle_deg = 20;  // the algorithm is proven to end up to 30
   const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(least_angle_deg, radius, distance);
-  // Where the function hardly changes, as round samples of one plane, CGAL's mesher meets the surface twice in
-  // one place and says so by an assertion.
+  // Where the function hardly changes, as round samples of one plane, CGAL's mesher meets the surface twice
+  // in one place and says so by an assertion.
   try {
     CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_with_boundary_tag());
   } catch (const CGAL::Failure_exception&) {
