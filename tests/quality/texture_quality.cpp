@@ -17,10 +17,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
-#include "drape/base/parallel.hpp"
 #include "drape/base/random.hpp"
 #include "drape/geometry/bounding_box.hpp"
 #include "drape/geometry/ray_caster.hpp"
@@ -28,120 +26,33 @@
 #include "drape/metrics/image_error.hpp"
 #include "drape/rendering/renderer.hpp"
 #include "drape/simulation/objects.hpp"
-#include "drape/simulation/virtual_camera.hpp"
 #include "drape/texturing/texture_mesh.hpp"
 #include "painted_object.hpp"
+#include "painted_scenes.hpp"
 #include "program_arguments.hpp"
 #include "triangle_raster.hpp"
 
 namespace drape {
 namespace {
 
+using lab::byte;
+using lab::camera_at;
+using lab::height;
+using lab::linear;
+using lab::Object;
+using lab::Photo;
+using lab::photographed;
+using lab::Scene;
+using lab::seen_by;
+using lab::slightly_off;
+using lab::turn_deg;
+using lab::width;
+using lab::without_background;
 using simulation::ObjectKind;
 using texturing::TextureMode;
 using texturing::TextureOptions;
 using texturing::TextureResult;
 using texturing::TextureView;
-
-constexpr int width = 960;
-constexpr int height = 720;
-constexpr double field_of_view_deg = 38;
-
-struct Object {
-  std::string name;
-  simulation::ObjectSpec spec;
-  TriangleMesh mesh;
-  RayCaster caster;
-};
-
-struct Photo {
-  Image8 rgb;
-  Image8 stencil;
-  Camera camera;
-};
-
-float linear(float stored) {
-  return stored <= 0.04045F ? stored / 12.92F : std::pow((stored + 0.055F) / 1.055F, 2.4F);
-}
-
-std::uint8_t byte(float light) {
-  const float v = std::clamp(light, 0.F, 1.F);
-  const float stored = v <= 0.0031308F ? 12.92F * v : 1.055F * std::pow(v, 1 / 2.4F) - 0.055F;
-  return static_cast<std::uint8_t>(std::lround(255 * stored));
-}
-
-// What a camera sees of an object: linear light, the mean of 3 x 3 rays a pixel, without noise.
-struct Scene {
-  Camera camera;
-  Image<float> light;     // three channels, of the object alone
-  Image<float> coverage;  // share of the rays that hit it
-  Image8 stencil;
-};
-
-// The paint itself, without light.
-Scene seen_by(const Object& object, const Camera& camera) {
-  Scene scene{camera, Image<float>(width, height, 3, 0), Image<float>(width, height, 1, 0),
-              Image8(width, height, 1, stencil::background)};
-  parallel_for(height, 8, [&](std::size_t begin, std::size_t end) {
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-      for (int x = 0; x < width; ++x)
-        for (int s = 0; s < 9; ++s) {
-          const Eigen::Vector2d pixel(x + (s % 3 + 0.5) / 3, y + (s / 3 + 0.5) / 3);
-          const Eigen::Vector3d eye = camera.center();
-          const Eigen::Vector3d direction = camera.unproject(pixel, 1) - eye;
-          const auto hit = object.caster.first_hit(eye, direction);
-          if (!hit) continue;
-          if (s == 4) scene.stencil.at(x, y) = stencil::object;
-          const Eigen::Vector3f color =
-              simulation::object_color(object.spec, eye + hit->distance * direction);
-          for (int c = 0; c < 3; ++c) scene.light.at(x, y, c) += linear(color[c]) / 9;
-          scene.coverage.at(x, y) += 1 / 9.F;
-        }
-  });
-  return scene;
-}
-
-// With 0.5 % of noise, of full scale in linear light.
-Photo photographed(const Scene& scene, const Eigen::Vector3f& background, double exposure, std::uint64_t seed,
-                   double noise = 0.005) {
-  Photo photo{Image8(width, height, 3), scene.stencil, scene.camera};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      Rng rng(item_seed(seed, static_cast<std::uint64_t>(y * width + x)));
-      for (int c = 0; c < 3; ++c) {
-        const float light = scene.light.at(x, y, c) + (1 - scene.coverage.at(x, y)) * background[c];
-        photo.rgb.at(x, y, c) =
-            byte(static_cast<float>(exposure) * light + static_cast<float>(noise * rng.normal()));
-      }
-    }
-  return photo;
-}
-
-// Other seeds look from other sides.
-double turn_deg(std::uint64_t seed) {
-  return seed == 0 ? 0 : 360 * Rng(item_seed(501, seed)).uniform();
-}
-
-Camera camera_at(const Object& object, double azimuth_deg, double elevation_deg) {
-  return simulation::camera_round(object.mesh, width, height, field_of_view_deg, azimuth_deg, elevation_deg);
-}
-
-// As an aligner leaves it: turned about the object's middle, and nearer or farther with another focal length.
-Camera slightly_off(const Object& object, const Camera& camera, std::uint64_t seed) {
-  constexpr double turn_deg = 0.4;
-  constexpr double focal_percent = 1;
-  Rng rng(seed);
-  const Eigen::Vector3d middle = camera.camera_from_world * bounding_box(object.mesh.vertices).center();
-  const Eigen::Vector3d axis = Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
-  const double zoom = 1 + focal_percent / 100 * rng.normal();
-  const Eigen::AngleAxisd turn(turn_deg * std::numbers::pi / 180, axis);
-  Camera off = camera;
-  off.K(0, 0) *= zoom;
-  off.K(1, 1) *= zoom;
-  off.camera_from_world = Eigen::Translation3d(Eigen::Vector3d(middle.x(), middle.y(), zoom * middle.z())) *
-                          turn * Eigen::Translation3d(-middle) * camera.camera_from_world;
-  return off;
-}
 
 TextureView view_of(const Photo& photo, const Camera& camera) {
   return {photo.rgb, camera, photo.stencil, "photo"};
@@ -229,19 +140,6 @@ Image8 inner(const Image8& stencil, int px) {
         if (!stencil.contains(x + dx, y + dy) || stencil.at(x + dx, y + dy) != stencil::object)
           kept.at(x, y) = stencil::background;
   return kept;
-}
-
-// The photo as it would be if its outline's pixels held nothing but the object: what a model is to show
-// there.
-Scene without_background(Scene scene) {
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      float& coverage = scene.coverage.at(x, y);
-      if (!(coverage > 0)) continue;
-      for (int c = 0; c < 3; ++c) scene.light.at(x, y, c) /= coverage;
-      coverage = 1;
-    }
-  return scene;
 }
 
 // One photo, cameras slightly off: what the outline and the background look like.

@@ -48,6 +48,21 @@ std::vector<Eigen::Vector3f> harmonic_colors(const TriangleMesh& mesh, const See
 
 namespace {
 
+// Visits the sides of the unpainted faces, each from its end of the lesser distance.
+template <class Visit>
+void each_unpainted_edge(const TriangleMesh& mesh, const std::vector<std::uint8_t>& painted,
+                         const std::vector<double>& distance, Visit visit) {
+  for (std::size_t f = 0; f < painted.size(); ++f) {
+    if (painted[f] != 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t near = mesh.faces[f][k];
+      std::uint32_t beyond = mesh.faces[f][(k + 1) % 3];
+      if (distance[near] > distance[beyond]) std::swap(near, beyond);
+      visit(near, beyond);
+    }
+  }
+}
+
 // Of each vertex to painted surface, along unpainted edges; infinite beyond `reach`.
 std::vector<double> distances_to_painted(const TriangleMesh& mesh, const std::vector<std::uint8_t>& painted,
                                          double reach) {
@@ -59,18 +74,12 @@ std::vector<double> distances_to_painted(const TriangleMesh& mesh, const std::ve
   // Bellman and Ford: within a few edges of the start nothing changes any more.
   for (bool changed = true; changed;) {
     changed = false;
-    for (std::size_t f = 0; f < painted.size(); ++f) {
-      if (painted[f] != 0) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        std::uint32_t near = mesh.faces[f][k];
-        std::uint32_t beyond = mesh.faces[f][(k + 1) % 3];
-        if (distance[near] > distance[beyond]) std::swap(near, beyond);
-        const double along = distance[near] + (mesh.vertices[near] - mesh.vertices[beyond]).norm();
-        if (along > reach || distance[beyond] <= along) continue;
-        distance[beyond] = along;
-        changed = true;
-      }
-    }
+    each_unpainted_edge(mesh, painted, distance, [&](std::uint32_t near, std::uint32_t beyond) {
+      const double along = distance[near] + (mesh.vertices[near] - mesh.vertices[beyond]).norm();
+      if (along > reach || distance[beyond] <= along) return;
+      distance[beyond] = along;
+      changed = true;
+    });
   }
   return distance;
 }
@@ -93,23 +102,17 @@ std::vector<EdgeSplit> ends_of_reach(const TriangleMesh& mesh, const std::vector
   constexpr double least_part = 0.05;    // of the reach: shorter parts are not worth a cut
   const std::vector<double> distance = distances_to_painted(mesh, painted, reach);
   std::vector<EdgeSplit> splits;
-  for (std::size_t f = 0; f < painted.size(); ++f) {
-    if (painted[f] != 0) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::uint32_t near = mesh.faces[f][k];
-      std::uint32_t beyond = mesh.faces[f][(k + 1) % 3];
-      if (distance[near] > distance[beyond]) std::swap(near, beyond);
-      if (!(distance[near] < reach) || distance[beyond] <= reach) continue;
-      const double length = (mesh.vertices[near] - mesh.vertices[beyond]).norm();
-      const double part = just_within * (reach - distance[near]);
-      if (std::min(part, length - part) < least_part * reach) continue;
-      const double share = part / length;
-      if (near < beyond)
-        splits.push_back({near, beyond, share});
-      else
-        splits.push_back({beyond, near, 1 - share});
-    }
-  }
+  each_unpainted_edge(mesh, painted, distance, [&](std::uint32_t near, std::uint32_t beyond) {
+    if (!(distance[near] < reach) || distance[beyond] <= reach) return;
+    const double length = (mesh.vertices[near] - mesh.vertices[beyond]).norm();
+    const double part = just_within * (reach - distance[near]);
+    if (std::min(part, length - part) < least_part * reach) return;
+    const double share = part / length;
+    if (near < beyond)
+      splits.push_back({near, beyond, share});
+    else
+      splits.push_back({beyond, near, 1 - share});
+  });
   return splits;
 }
 
