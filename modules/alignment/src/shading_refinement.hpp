@@ -7,6 +7,7 @@
 
 #include "noisy_outline.hpp"
 #include "photo_plane.hpp"
+#include "surface_light.hpp"
 #include "surface_view.hpp"
 
 namespace drape::alignment {
@@ -23,23 +24,8 @@ struct InsideOfPhoto {
 [[nodiscard]] InsideOfPhoto inside_of_photo(const Image8& rgb, const PhotoPlane& plane,
                                             const StencilLevel& level, double margin_px);
 
-/// How well light explains the inside. The brightness of a pixel is taken for the scan's own (or one) times a
-/// function of the normal: spherical harmonics to the third order (Basri and Jacobs 2003: with nine of them
-/// nearly all that a matt body shows under any distant light), fitted robustly. Residuals of neighbours share
-/// their error; `independent` says how many there are of which each has an error of its own.
-struct ShadingFit {
-  double sigma = 0;        // of what light does not explain; brightness is 0..1
-  double explained = 0;    // of the variance inside, 0..1
-  double independent = 0;  // samples
-  double pixels = 0;       // seen and counted
-
-  /// Of the residuals, up to a constant of the photo.
-  [[nodiscard]] double log_likelihood() const;
-};
-
 /// Moves with a pose: the equations of Gauss and Newton for brightness, the light eliminated, so that
-/// creases, hidden edges and shading all pull. Derivatives are differences of
-/// two views, each a step away that moves the body's rim by `step_px` in the window.
+/// creases, hidden edges and shading all pull.
 class PhotoShading {
  public:
   PhotoShading(const LitMesh& mesh, const InsideOfPhoto& photo) : mesh_(mesh), photo_(photo) {}
@@ -50,13 +36,12 @@ class PhotoShading {
     Eigen::VectorXd vector;
     ShadingFit fit;
   };
-  [[nodiscard]] std::optional<Equations> equations(const OutlinePose& pose, const LensPrior& lens,
-                                                   const Eigen::MatrixXd& directions, double step_px);
+  [[nodiscard]] std::optional<Equations> equations(const OutlinePose& pose, const Eigen::MatrixXd& directions,
+                                                   int step_px);
   [[nodiscard]] std::optional<ShadingFit> fit(const OutlinePose& pose);
 
  private:
-  struct Light;
-  [[nodiscard]] bool fit_light(const OutlinePose& pose, Light& light);
+  [[nodiscard]] SurfaceLight light_at(const OutlinePose& pose);
 
   const LitMesh& mesh_;
   const InsideOfPhoto& photo_;
@@ -73,5 +58,10 @@ struct ShadedPose {
 [[nodiscard]] std::optional<ShadedPose> pose_by_shading(NoisyOutline& outline, const LitMesh& mesh,
                                                         const std::vector<InsideOfPhoto>& coarse_to_fine,
                                                         const RefinedPose& start);
+
+/// Which of `poses`, that the outline cannot tell apart, the photo's inside speaks for; 0 unless another is
+/// better beyond doubt.
+[[nodiscard]] std::size_t best_shaded(const LitMesh& mesh, const InsideOfPhoto& photo,
+                                      const std::vector<RefinedPose>& poses);
 
 }  // namespace drape::alignment

@@ -44,6 +44,8 @@ LitMesh lit_mesh(const OutlineMesh& mesh, const std::vector<Eigen::Vector3f>& co
       lit.corner_normals[3 * f + k] = sum.norm() > 0 ? Eigen::Vector3f(sum.normalized()) : own;
     }
   }
+  lit.one_sided = mesh.open && std::none_of(mesh.edges.begin(), mesh.edges.end(),
+                                            [](const OutlineEdge& edge) { return edge.turned; });
   if (colors.size() == mesh.vertices.size())
     for (const Eigen::Vector3f& color : colors) lit.brightness.push_back(color.mean());
   return lit;
@@ -92,9 +94,11 @@ void SurfaceDrawing::draw_face(const LitMesh& lit, std::size_t face, const Eigen
       SurfacePixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                     static_cast<std::size_t>(x)];
       const float depth = wa * a.z() + wb * b.z() + wc * c.z();
-      if (pixel.seen && depth >= pixel.depth) continue;
-      pixel.seen = true;
+      if (pixel.covered && depth >= pixel.depth) continue;
+      pixel.covered = true;
       pixel.depth = depth;
+      pixel.seen = side > 0 || !lit.one_sided;
+      if (!pixel.seen) continue;
       pixel.normal = side * (rotation * (wa * normals[0] + wb * normals[1] + wc * normals[2]).normalized());
       if (!lit.brightness.empty())
         pixel.brightness = wa * lit.brightness[corners[0]] + wb * lit.brightness[corners[1]] +

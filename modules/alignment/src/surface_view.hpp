@@ -15,17 +15,22 @@ struct LitMesh {
   const OutlineMesh* mesh = nullptr;
   std::vector<Eigen::Vector3f> corner_normals;  // three a face, in the mesh's axes
   std::vector<float> brightness;                // of the scan, per vertex, 0..1; empty: it has none
+  /// The mesh is open and its faces agree on which side is out: the inner sides are seen through holes of the
+  /// scan, where the object may be closed.
+  bool one_sided = false;
 };
 
 /// Corner normals are the area-weighted means of the faces about the vertex that are turned from the corner's
 /// own face by less than the crease angle (40 degrees). `colors`: per vertex of the mesh, or none.
 [[nodiscard]] LitMesh lit_mesh(const OutlineMesh& mesh, const std::vector<Eigen::Vector3f>& colors);
 
-/// Of one pixel; the normal is towards the camera, in its axes.
+/// Of one pixel; the normal is towards the camera, in its axes. The inner side of a face of a one-sided mesh
+/// covers what is behind it, but is not seen.
 struct SurfacePixel {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float brightness = 1;
   float depth = 0;
+  bool covered = false;
   bool seen = false;
 };
 

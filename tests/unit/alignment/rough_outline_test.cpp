@@ -13,6 +13,7 @@
 #include "outline_misfit.hpp"
 #include "photo_plane.hpp"
 #include "shading_refinement.hpp"
+#include "surface_light.hpp"
 #include "surface_view.hpp"
 
 namespace drape::alignment {
@@ -117,7 +118,7 @@ TEST(SurfaceDrawing, ShowsTheFaceThatIsNearest) {
     for (const Eigen::Vector2d& corner :
          {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1)})
       mesh.vertices.emplace_back(corner.x() * (z < 0 ? 0.5 : 1), corner.y() * (z < 0 ? 0.5 : 1), z);
-  mesh.faces = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  mesh.faces = {{0, 2, 1}, {0, 3, 2}, {4, 6, 5}, {4, 7, 6}};
   const std::vector<Eigen::Vector3f> colors = {{.1F, .1F, .1F}, {.1F, .1F, .1F}, {.1F, .1F, .1F},
                                                {.1F, .1F, .1F}, {.9F, .9F, .9F}, {.9F, .9F, .9F},
                                                {.9F, .9F, .9F}, {.9F, .9F, .9F}};
@@ -135,6 +136,110 @@ TEST(SurfaceDrawing, ShowsTheFaceThatIsNearest) {
   EXPECT_NEAR(pixel(16, 32).brightness, 0.9, 1e-6);
   EXPECT_FALSE(pixel(2, 2).seen);
   EXPECT_NEAR(pixel(32, 32).normal.z(), -1, 1e-6);  // towards the camera
+}
+
+// The hull of a scan is looked into through a hole: what is seen there may not be seen of the object.
+TEST(SurfaceDrawing, DoesNotSeeTheInsideOfAnOpenMesh) {
+  TriangleMesh mesh = knobbed_brick();
+  mesh.faces.pop_back();
+  const OutlineMesh outline = outline_mesh(mesh, unit_sphere(mesh));
+  const LitMesh surface = lit_mesh(outline, {});
+  EXPECT_TRUE(surface.one_sided);
+  Window window;
+  window.origin.setConstant(-40);
+  window.width = window.height = 80;
+  OutlinePose pose;
+  pose.scale = 36;
+  int inner = 0;
+  SurfaceDrawing drawing;
+  for (int i = 0; i < 24; ++i) {
+    const Eigen::Vector3d axis(std::sin(1.0 + i), std::cos(2.0 * i), std::sin(3.0 * i));
+    pose.rotation = Eigen::AngleAxisd(0.5 * i, axis.normalized()).toRotationMatrix();
+    drawing.draw(surface, pose, window);
+    for (const SurfacePixel& pixel : drawing.pixels()) {
+      inner += pixel.covered && !pixel.seen ? 1 : 0;
+      EXPECT_TRUE(pixel.covered || !pixel.seen);
+    }
+  }
+  EXPECT_GT(inner, 20);
+  mesh.faces.back() = {mesh.faces.back()[0], mesh.faces.back()[2], mesh.faces.back()[1]};
+  EXPECT_FALSE(lit_mesh(outline_mesh(mesh, unit_sphere(mesh)), {}).one_sided);
+}
+
+TEST(SurfaceLight, GradientIsThatOfTheHarmonics) {
+  LightTerms coefficients;
+  for (int i = 0; i < light_terms; ++i) coefficients[i] = std::sin(1.0 + i);
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.5, -0.8).normalized();
+  const Eigen::Vector3d gradient = light_gradient(normal, coefficients);
+  constexpr double step = 1e-5;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d d = step * Eigen::Vector3d::Unit(k);
+    const double change =
+        (light_harmonics(normal + d) - light_harmonics(normal - d)).dot(coefficients) / (2 * step);
+    EXPECT_NEAR(gradient[k], change, 1e-8);
+  }
+}
+
+// A ball: smooth all over, so that pictures of two poses may be subtracted.
+TriangleMesh ball() {
+  constexpr int rings = 60;
+  constexpr int sides = 120;
+  TriangleMesh mesh;
+  for (int i = 0; i <= rings; ++i)
+    for (int j = 0; j < sides; ++j) {
+      const double a = std::numbers::pi * i / rings;
+      const double b = 2 * std::numbers::pi * j / sides;
+      mesh.vertices.emplace_back(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), 0.8 * std::cos(a));
+    }
+  const auto at = [](int i, int j) { return static_cast<std::uint32_t>(i * sides + j % sides); };
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < sides; ++j) {
+      if (i > 0) mesh.faces.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+      if (i + 1 < rings) mesh.faces.push_back({at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
+    }
+  return mesh;
+}
+
+TEST(SurfaceLight, ChangesOfBrightnessAreThoseOfThePicture) {
+  TriangleMesh mesh = ball();
+  for (const Eigen::Vector3d& x : mesh.vertices)
+    mesh.colors.push_back(
+        Eigen::Vector3f::Constant(static_cast<float>(0.5 + 0.3 * std::sin(4 * x.x() + 3 * x.z()))));
+  const OutlineMesh outline = outline_mesh(mesh, {Eigen::Vector3d::Zero(), 1});
+  const LitMesh surface = lit_mesh(outline, mesh.colors);
+  Window window;
+  window.origin.setConstant(-90);
+  window.width = window.height = 180;
+  OutlinePose pose;
+  pose.scale = 80;
+  pose.perspective = 0.2;
+  pose.shift << 3, -5;
+  pose.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  LightTerms light = LightTerms::Zero();
+  light.head<9>() << 0.6, 0.2, -0.3, -0.25, 0.05, 0.04, -0.06, 0.03, 0.02;
+  const auto shown = [&](const OutlinePose& at, std::size_t p) {
+    SurfaceDrawing drawing;
+    drawing.draw(surface, at, window);
+    const SurfacePixel& pixel = drawing.pixels()[p];
+    return static_cast<double>(pixel.brightness) * light_harmonics(pixel.normal.cast<double>()).dot(light);
+  };
+  SurfaceDrawing drawing;
+  drawing.draw(surface, pose, window);
+  std::vector<std::size_t> pixels;
+  for (const int x : {60, 80, 95, 110})
+    for (const int y : {65, 85, 120}) pixels.push_back(static_cast<std::size_t>(180 * y + x));
+  const Eigen::MatrixXd changes = brightness_changes(drawing.pixels(), window, pose, pixels, light, 1);
+  for (int k = 0; k < 7; ++k) {
+    const double step = k < 3 || k == 6 ? 0.01 : 0.8;
+    PoseVector move = PoseVector::Zero();
+    move[k] = step;
+    const double largest = changes.col(k).cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const double change =
+          (shown(moved(pose, move), pixels[i]) - shown(moved(pose, -move), pixels[i])) / (2 * step);
+      EXPECT_NEAR(changes(static_cast<Eigen::Index>(i), k), change, 0.15 * largest) << k << " " << i;
+    }
+  }
 }
 
 }  // namespace
