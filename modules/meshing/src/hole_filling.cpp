@@ -9,6 +9,7 @@
 #include "drape/geometry/mesh_topology.hpp"
 #include "drape/meshing/simplify.hpp"
 #include "edge_repair.hpp"
+#include "faces_without_area.hpp"
 #include "hole_measures.hpp"
 #include "nested_holes.hpp"
 #include "patching.hpp"
@@ -28,6 +29,8 @@ TriangleMesh repaired(const TriangleMesh& mesh, const FillOptions& options, Fill
     result.bad_faces_removed = cleaned.removed;
     cleaned = with_manifold_edges(cleaned.mesh);
     result.non_manifold_repaired = cleaned.removed;
+    cleaned = without_faces_without_area(cleaned.mesh);
+    result.bad_faces_removed += cleaned.removed;
   }
   cleaned = without_small_components(cleaned.mesh, options.min_component_percent);
   result.components_removed = cleaned.removed;

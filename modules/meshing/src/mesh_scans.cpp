@@ -41,8 +41,9 @@ void check(const MeshInput& input) {
 // A surface needs samples that span at least a plane.
 void check_extent(const PointCloud& samples, double spacing) {
   if (samples.size() < 4)
-    throw input_error("{} distinct samples make no surface: the merged scans are (nearly) empty",
-                      samples.size());
+    throw input_error(
+        "four samples apart from each other are the least that make a surface; the merged scans have {}",
+        samples.size());
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : samples.positions) mean += p - samples.positions.front();
   mean = samples.positions.front() + mean / static_cast<double>(samples.size());

@@ -29,8 +29,13 @@ constexpr std::size_t full_density_edges = 400;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// A patch may stand this much of its area in space that was seen through: registration errs at edges.
+// A patch may stand in space that was seen through with this much of the hole's area: registration errs at
+// edges.
 constexpr double most_seen_through = 0.1;
+
+// Where the triangulation that crosses least cannot be sought, as the loop is too long for that, a patch that
+// cuts the surface in this many pairs of faces or more does more harm than the hole.
+constexpr std::size_t too_many_crossings = 5;
 
 // From the best kind of patch to the least.
 enum class Kind { capped, faired, refined, plain };
@@ -41,6 +46,7 @@ struct Work {
   HoleRegion region;
   Patch patch;
   Kind kind = Kind::faired;
+  double area = std::numeric_limits<double>::infinity();  // of the least patch that was made
   HoleAction action = HoleAction::leave;
   std::string how;
   std::size_t crossings = 0;  // pairs of faces
@@ -60,11 +66,14 @@ std::vector<Eigen::Vector3d> loop_points(const HoleRegion& region) {
   return {region.points.begin(), region.points.begin() + static_cast<std::ptrdiff_t>(region.loop)};
 }
 
-bool stands_in_seen_space(const Work& work, const Patch& patch, const SpaceToKeep* keep) {
+// Measured against the least patch: one that wastes area elsewhere is no better for it.
+bool stands_in_seen_space(Work& work, const Patch& patch, const SpaceToKeep* keep) {
   if (keep == nullptr) return false;
   std::vector<Eigen::Vector3d> points = loop_points(work.region);
   points.insert(points.end(), patch.vertices.begin(), patch.vertices.end());
-  return seen_through_share(keep->seen, points, patch.faces, keep->spacing) > most_seen_through;
+  const SeenThroughArea area = seen_through_area(keep->seen, points, patch.faces, keep->spacing);
+  work.area = std::min(work.area, area.all);
+  return area.through > most_seen_through * work.area;
 }
 
 std::optional<Patch> patch_of_kind(const HoleRegion& region, Kind kind, double density) {
@@ -322,6 +331,24 @@ TriangleMesh assembled_and_mended(const TriangleMesh& mesh, std::vector<Work>& w
   return with_spots_mended(mesh, works, keep, std::move(patched));
 }
 
+// Long loops whose patches still cut the surface in many places stay open.
+TriangleMesh without_harmful_patches(const TriangleMesh& mesh, std::vector<Work>& works,
+                                     TriangleMesh patched) {
+  bool any = false;
+  for (Work& work : works) {
+    if (work.crossings < too_many_crossings || work.loop.size() <= most_edges_for_least_crossings) continue;
+    any = true;
+    work.how = fmt::format("every patch that was found would cut the surface, the best in {} pairs of faces",
+                           work.crossings);
+    work.action = HoleAction::leave;
+    work.patch = {};
+  }
+  if (!any) return patched;
+  patched = assembled(mesh, works);
+  count_crossings(patched, mesh.faces.size(), works);
+  return patched;
+}
+
 // Where a patch crosses the surface, the next less smooth one is tried; the one that crosses least stays.
 TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& works,
                                   const SpaceToKeep* keep) {
@@ -346,7 +373,8 @@ TriangleMesh with_least_crossings(const TriangleMesh& mesh, std::vector<Work>& w
     part_chords(works);
     result = assembled(mesh, works);
   }
-  return with_fewest_crossings(mesh, works, keep, std::move(result));
+  result = with_fewest_crossings(mesh, works, keep, std::move(result));
+  return without_harmful_patches(mesh, works, std::move(result));
 }
 
 }  // namespace
@@ -367,7 +395,11 @@ Patched with_patches(const TriangleMesh& mesh, const std::vector<LoopToFill>& lo
     const Kind kind = loops[i].style == PatchStyle::smooth ? Kind::faired
                       : loops[i].style == PatchStyle::flat ? Kind::capped
                                                            : Kind::plain;
-    works.push_back({loops[i].loop, std::move(*region), {}, kind, HoleAction::leave, {}, 0});
+    Work work;
+    work.loop = loops[i].loop;
+    work.region = std::move(*region);
+    work.kind = kind;
+    works.push_back(std::move(work));
     hole_of.push_back(i);
   }
   constexpr std::size_t holes_per_step = 64;

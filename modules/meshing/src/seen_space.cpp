@@ -62,11 +62,10 @@ bool SeenSpace::seen_through(const Eigen::Vector3d& point_in_world) const {
                      [&](const View& view) { return seen_through(view, point_in_world); });
 }
 
-double seen_through_share(const SeenSpace& seen, const std::vector<Eigen::Vector3d>& points,
-                          const std::vector<Face>& faces, double spacing) {
+SeenThroughArea seen_through_area(const SeenSpace& seen, const std::vector<Eigen::Vector3d>& points,
+                                  const std::vector<Face>& faces, double spacing) {
   constexpr double most_samples_a_side = 12;  // of a face
-  double through = 0;
-  double all = 0;
+  SeenThroughArea sum;
   for (const Face& f : faces) {
     const Eigen::Vector3d to_b = points[f[1]] - points[f[0]];
     const Eigen::Vector3d to_c = points[f[2]] - points[f[0]];
@@ -81,10 +80,10 @@ double seen_through_share(const SeenSpace& seen, const std::vector<Eigen::Vector
         const Eigen::Vector3d p = points[f[0]] + (i + 1.0 / 3) / steps * to_b + (k + 1.0 / 3) / steps * to_c;
         if (seen.seen_through(p)) ++hits;
       }
-    through += area * hits / samples;
-    all += area;
+    sum.through += area * hits / samples;
+    sum.all += area;
   }
-  return all > 0 ? through / all : 0;
+  return sum;
 }
 
 }  // namespace drape::meshing

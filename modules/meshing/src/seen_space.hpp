@@ -40,8 +40,15 @@ class SeenSpace {
   std::vector<View> views_;
 };
 
-/// The share of the faces' area (of `faces` over `points`) that stands in space that was seen through.
-[[nodiscard]] double seen_through_share(const SeenSpace& seen, const std::vector<Eigen::Vector3d>& points,
-                                        const std::vector<Face>& faces, double spacing);
+/// Areas in the world's unit, squared.
+struct SeenThroughArea {
+  double through = 0;  // that stands in space that was seen through
+  double all = 0;
+};
+
+/// Of the faces (`faces` over `points`).
+[[nodiscard]] SeenThroughArea seen_through_area(const SeenSpace& seen,
+                                                const std::vector<Eigen::Vector3d>& points,
+                                                const std::vector<Face>& faces, double spacing);
 
 }  // namespace drape::meshing

@@ -77,7 +77,7 @@ pipeline::Stage fill_stage() {
   stage.summary =
       "Repairs the mesh, closes holes under a stated limit, and makes a simplified copy for texturing.";
   stage.input_parts = {"mesh", "units"};
-  stage.version = 4;
+  stage.version = 5;
   stage.reads = {
       {"mesh", "mesh.ply"}, {"ingest", "scans.json"}, {"ingest", "scans/*.ply"}, {"register", "poses.json"}};
   stage.writes = {"mesh.ply", "mesh_simplified.ply", "holes.json"};

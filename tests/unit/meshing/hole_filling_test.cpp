@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "drape/base/parallel.hpp"
@@ -243,6 +244,76 @@ TEST(HoleFilling, FacesWithoutAreaDoNotStopIt) {
   open.faces.push_back({last[0], last[1], middle});
   const FillResult result = fill(open);
   EXPECT_TRUE(mesh_quality(result.mesh).closed());
+}
+
+std::size_t faces_without_area(const TriangleMesh& mesh) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i)
+    count += scaled_face_normal(mesh, i).norm() > 1e-12 ? 0 : 1;
+  return count;
+}
+
+// Parts the edge between the first two corners of a face in its middle on that face's side only: a face
+// without area lies between.
+void part_on_one_side(TriangleMesh& mesh, std::size_t face) {
+  const Face f = mesh.faces[face];
+  mesh.vertices.push_back((mesh.vertices[f[0]] + mesh.vertices[f[1]]) / 2);
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  mesh.faces[face] = {middle, f[1], f[2]};
+  mesh.faces.push_back({f[0], middle, f[2]});
+  mesh.faces.push_back({f[0], f[1], middle});
+}
+
+// The first corner of a face becomes two vertices in one place: this face and the one across its last edge
+// take the new one, and two faces without area lie between the two.
+void part_vertex(TriangleMesh& mesh, std::uint32_t face) {
+  const auto [old, right, middle] = mesh.faces[face];
+  mesh.vertices.push_back(mesh.vertices[old]);
+  const auto twin = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  std::uint32_t left = right;
+  for (Face& f : mesh.faces)
+    for (int turn = 0; turn < 3; ++turn) {
+      std::rotate(f.begin(), f.begin() + 1, f.end());
+      if (f[0] == old && f[1] == middle) left = f[2];
+    }
+  for (Face& f : mesh.faces)
+    if (std::count(f.begin(), f.end(), middle) != 0) std::replace(f.begin(), f.end(), old, twin);
+  mesh.faces.push_back({twin, old, right});
+  mesh.faces.push_back({old, twin, left});
+}
+
+TEST(HoleFilling, RepairLeavesNoFaceWithoutArea) {
+  const TriangleMesh whole = test::sphere(10, 24);
+  TriangleMesh mesh = whole;
+  part_on_one_side(mesh, 300);
+  part_on_one_side(mesh, mesh.faces.size() - 2);  // a half of it once more
+  part_vertex(mesh, 100);
+  ASSERT_TRUE(mesh_topology(mesh).closed_manifold());
+  ASSERT_EQ(faces_without_area(mesh), 4U);
+
+  const FillResult result = fill(mesh);
+  EXPECT_EQ(faces_without_area(result.mesh), 0U);
+  EXPECT_EQ(result.bad_faces_removed, 4U);
+  EXPECT_TRUE(mesh_quality(result.mesh).closed());
+  EXPECT_EQ(result.mesh.vertices.size(), whole.vertices.size() + 2);
+  EXPECT_NEAR(signed_volume(result.mesh), signed_volume(whole), 1e-9);
+  FillOptions as_it_is;
+  as_it_is.repair = false;
+  EXPECT_EQ(faces_without_area(fill(mesh, as_it_is).mesh), 4U);
+}
+
+TEST(HoleFilling, AFaceWithoutAreaThatHangsOnABorderGoes) {
+  const TriangleMesh open =
+      test::with_hole(test::sphere(10, 24), [](const Eigen::Vector3d& p) { return p.z() > 8; });
+  const std::vector<std::uint32_t> loop = boundary_loops(open).at(0).vertices;
+  TriangleMesh with_spike = open;
+  with_spike.vertices.emplace_back(2 * open.vertices[loop[3]] - open.vertices[loop[4]]);
+  // The hole is on the left of its loop.
+  with_spike.faces.push_back({loop[4], loop[3], static_cast<std::uint32_t>(with_spike.vertices.size() - 1)});
+  ASSERT_EQ(faces_without_area(with_spike), 1U);
+  FillOptions open_still;
+  open_still.max_hole_size_spacings = 0;
+  EXPECT_EQ(fill(with_spike, open_still).mesh.faces, open.faces);
 }
 
 TEST(HoleFilling, UnsoundInputIsNamed) {

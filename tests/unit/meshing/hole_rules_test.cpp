@@ -233,6 +233,67 @@ TEST(HoleRules, APatchStaysBehindWhatWasSeen) {
   EXPECT_EQ(hole.action, HoleAction::plain) << hole.why;
 }
 
+// A flat sheet with a hole like a T: a bar, and a stem down from its middle.
+struct SheetWithT {
+  static constexpr double stem_end = 30;
+  TriangleMesh sheet;
+
+  SheetWithT() {
+    const auto at = [](int x, int y) { return static_cast<std::uint32_t>((y + 40) * 61 + x + 30); };
+    for (int y = -40; y <= 20; ++y)
+      for (int x = -30; x <= 30; ++x) sheet.vertices.emplace_back(x, y, 0);
+    for (int y = -40; y < 20; ++y)
+      for (int x = -30; x < 30; ++x) {
+        const bool bar = std::abs(x + 0.5) < 24 && y >= 0 && y < 4;
+        const bool stem = std::abs(x + 0.5) < 2 && y >= -stem_end && y < 0;
+        if (bar || stem) continue;
+        sheet.faces.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+        sheet.faces.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+      }
+    sheet = without_unused_vertices(sheet);
+  }
+  /// What becomes of the hole where a scan from above sees a floor through so much of the stem's end.
+  [[nodiscard]] Hole seen_through(double length) const {
+    std::vector<RangeScan> scans(1);
+    for (double x = -3; x <= 3; x += 0.5)
+      for (double y = -stem_end - 1; y <= -stem_end + length; y += 0.5)
+        scans[0].cloud.positions.emplace_back(x, y, -10);
+    scans[0].view.kind = ScanView::Kind::direction;
+    scans[0].view.vector = Eigen::Vector3d(0, 0, -1);
+    const std::vector<Rigid3> poses{Rigid3::Identity()};
+    const std::vector<Hole> holes = fill(sheet, {}, {scans, poses}).holes;
+    return *std::min_element(holes.begin(), holes.end(),
+                             [](const Hole& a, const Hole& b) { return a.length < b.length; });
+  }
+};
+
+TEST(HoleRules, APatchThatWastesAreaIsNoBetterForIt) {
+  const SheetWithT t;
+  EXPECT_EQ(t.seen_through(2).action, HoleAction::fair);
+  // More than a tenth of the hole. A fan from its middle folds over itself beside the bar: its faces have
+  // twice the area, of which less than a tenth is here.
+  const Hole hole = t.seen_through(10);
+  EXPECT_EQ(hole.action, HoleAction::leave);
+  EXPECT_NE(hole.why.find("a scanner looked through"), std::string::npos) << hole.why;
+}
+
+TEST(HoleRules, ALongHoleThatNoPatchClosesWithoutCuttingTheSurfaceStaysOpen) {
+  const TriangleMesh open =
+      test::with_hole(test::sphere(10, 100), [](const Eigen::Vector3d& p) { return p.z() > 7.5; });
+  const FillResult alone = fill(open);
+  ASSERT_EQ(alone.holes.size(), 1U);
+  ASSERT_GT(alone.holes[0].boundary_edges, 64U);
+  EXPECT_EQ(alone.holes[0].action, HoleAction::fair);
+  // A ball in the hole's mouth.
+  const TriangleMesh blocked = together(open, test::sphere(4, 30, {0, 0, 8}));
+  const FillResult result = fill(blocked);
+  ASSERT_EQ(result.holes.size(), 1U);
+  EXPECT_EQ(result.holes[0].action, HoleAction::leave);
+  EXPECT_NE(result.holes[0].why.find("would cut the surface"), std::string::npos) << result.holes[0].why;
+  EXPECT_EQ(result.self_intersections, 0U);
+  EXPECT_EQ(result.mesh.faces, blocked.faces);
+}
+
 TEST(HoleRules, TinyMeshesEndWell) {
   TriangleMesh triangle;
   triangle.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

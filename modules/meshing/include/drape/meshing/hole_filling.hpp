@@ -44,8 +44,8 @@ inline void describe(Binder& b, FillOptions& o) {
   b.flag("keep_seen_space_open", o.keep_seen_space_open,
          "leave a hole open if every patch for it would stand in space that a scanner looked through");
   b.flag("repair", o.repair,
-         "first drop degenerate and repeated faces, join borders with the same coordinates, and part faces "
-         "that more than two share an edge");
+         "first drop degenerate and repeated faces, join borders with the same coordinates, part faces that "
+         "more than two share an edge, and take up faces without area into those beside them");
   b.number("min_component_percent", o.min_component_percent, {0, 100},
            "pieces with a smaller share of all faces are removed");
   b.number("smooth_rounds", o.smooth_rounds, {0, 50},
@@ -95,7 +95,7 @@ struct FillResult {
   TriangleMesh simplified;  // the same surface with fewer faces
   std::vector<Hole> holes;  // in the order of their least vertex
   std::size_t components_removed = 0;
-  std::size_t bad_faces_removed = 0;      // degenerate or repeated
+  std::size_t bad_faces_removed = 0;      // degenerate, repeated or without area
   std::size_t vertices_joined = 0;        // border vertices with the same coordinates
   std::size_t non_manifold_repaired = 0;  // edges and vertices
   std::size_t self_intersections = 0;     // pairs of faces of which one is an added one
@@ -108,10 +108,11 @@ struct FillResult {
 /// clipping or a fan stand in where that finds none. The patches of long loops are coarser, so that the cost
 /// stays bounded. A patch that would cut the surface is triangulated anew where it does, and where that does
 /// not help replaced by one that does so less, in the end by the triangulation of the hole that does so least
-/// (a border that runs through the surface leaves none that does not), and one that would stand in space that
-/// a scan saw through by one that does not, if there is any. Several borders that touch in one vertex are
-/// filled as separate simple loops; an island inside a hole, and the inner rim of a hollow base, are joined
-/// to the loop round them.
+/// (a border that runs through the surface leaves none that does not; that triangulation is sought for up to
+/// 64 edges, and a longer loop whose patches all cut the surface in many places stays open), and one that
+/// would stand in space that a scan saw through by one that does not: where there is none, the hole stays
+/// open. Several borders that touch in one vertex are filled as separate simple loops; an island inside a
+/// hole, and the inner rim of a hollow base, are joined to the loop round them.
 ///
 /// `spacing` > 0, in the mesh's unit. Error{input} if the mesh breaks its promises (problem_of).
 [[nodiscard]] FillResult fill_holes(const TriangleMesh& mesh, double spacing, const FillOptions& options,
