@@ -16,6 +16,7 @@
 #include <CGAL/make_surface_mesh.h>
 #include <CGAL/property_map.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -97,18 +98,30 @@ std::vector<OrientedPoint> oriented_points(const PointCloud& samples, const Unit
   return points;
 }
 
+[[noreturn]] void throw_no_surface(std::size_t samples) {
+  throw input_error(
+      "mesh.method poisson finds no closed surface round the {} samples, as happens where they are flat; "
+      "advancing_front needs none",
+      samples);
+}
+
 // The implicit function as the surface mesher asks for it: reports how far it is, and can be interrupted.
+// Where the function hardly changes, as far round samples of one plane, the mesher follows a surface without
+// end: it is stopped after many times the calls that a surface takes.
 struct WatchedFunction {
   using FT = Kernel::FT;
   using Point = Kernel::Point_3;
 
   const PoissonFunction* function;
   const Progress* progress;
+  std::size_t samples;
   double expected_calls;
+  double most_calls;
   std::size_t* calls;
 
   FT operator()(const Point& p) const {
-    if (++*calls % 16384 == 0)
+    if (static_cast<double>(++*calls) > most_calls) throw_no_surface(samples);
+    if (*calls % 16384 == 0)
       progress->update(1 - std::exp(-static_cast<double>(*calls) / expected_calls), "contouring the surface");
     return (*function)(p);
   }
@@ -175,8 +188,17 @@ TriangleMesh poisson_mesh(const PointCloud& samples, const PoissonSizes& sizes, 
   const double distance = sizes.facet_distance / sizes.spacing;
   const double sphere_radius = 5 * std::sqrt(function.bounding_sphere().squared_radius());
   std::size_t calls = 0;
-  const WatchedFunction watched{&function, &contouring,
-                                150.0 * static_cast<double>(samples.size()) / (radius * radius), &calls};
+  // The triangles are as large as their radius may be, or as their distance allows where the surface bends by
+  // as much as the samples can show.
+  const double calls_per_square = 150.0 * static_cast<double>(samples.size());
+  const double least_square = std::min(radius * radius, 8 * distance);
+  constexpr double surfaces = 40;  // as large as what was sampled: gaps are closed, too
+  const WatchedFunction watched{&function,
+                                &contouring,
+                                samples.size(),
+                                calls_per_square / (radius * radius),
+                                surfaces * calls_per_square / least_square,
+                                &calls};
   const CGAL::Implicit_surface_3<Kernel, WatchedFunction> surface(
       watched, Kernel::Sphere_3(inner, sphere_radius * sphere_radius), distance / 20 / sphere_radius);
   Triangulation triangulation;
@@ -185,15 +207,12 @@ TriangleMesh poisson_mesh(const PointCloud& samples, const PoissonSizes& sizes, 
   insert_seeds(samples, frame, seeds_apart * sizes.facet_radius, function, triangulation);
   constexpr double least_angle_deg = 20;  // the algorithm is proven to end up to 30
   const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(least_angle_deg, radius, distance);
-  // Where the function hardly changes, as round samples of one plane, CGAL's mesher meets the surface twice
-  // in one place and says so by an assertion.
+  // Where the function hardly changes, CGAL's mesher also meets the surface twice in one place and says so by
+  // an assertion.
   try {
     CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_with_boundary_tag());
   } catch (const CGAL::Failure_exception&) {
-    throw input_error(
-        "mesh.method poisson finds no closed surface round the {} samples, as happens where they are flat; "
-        "advancing_front needs none",
-        samples.size());
+    throw_no_surface(samples.size());
   }
   return extract(triangulation, frame);
 }

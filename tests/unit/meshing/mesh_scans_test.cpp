@@ -150,6 +150,19 @@ TEST_P(MergedCloudMethods, UnitAndThreadsDoNotMatter) {
     EXPECT_EQ(Eigen::Vector3d(1024 * mesh.vertices[v]), other_unit.vertices[v]);
 }
 
+TEST(Poisson, EndsWhereItsSurfaceOfFlatSamplesDoesNot) {
+  // CGAL's mesher followed this one without end.
+  PointCloud disc;
+  constexpr double radius = 16;
+  for (double x = -radius; x <= radius; ++x)
+    for (double y = -radius; y <= radius; ++y)
+      if (x * x + y * y <= radius * radius) disc.positions.emplace_back(x, y, 0);
+  disc.normals.assign(disc.size(), Eigen::Vector3f(0, 0, 1));
+  const std::string message =
+      test::error_message(ErrorCode::input, [&] { (void)mesh_cloud(disc, 1, with_method(Method::poisson)); });
+  EXPECT_NE(message.find("no closed surface round the 797 samples"), std::string::npos) << message;
+}
+
 TEST_P(MergedCloudMethods, RefusesWhatIsNoSurface) {
   const auto message = [](const PointCloud& cloud) {
     return test::error_message(ErrorCode::input,
