@@ -256,7 +256,7 @@ SearchPlan ColorEvidence::plan() const {
   plan.kept_after_glance = plan.kept_with_effort = 24;
   plan.kept_for_middle = 12;
   plan.kept_for_full = 6;
-  plan.coarse_margin = plan.middle_margin = 1;
+  plan.glance_margin = plan.coarse_margin = plan.middle_margin = 1;
   if (levels_.front().box || levels_.front().click) return plan;
   // Anywhere in the photo other things part the colours as well as the object does while its pose is coarse:
   // each place keeps its best poses until they are refined.

@@ -62,6 +62,7 @@ struct SearchPlan {
   std::size_t kept_for_middle = 8;
   std::size_t kept_for_full = 4;
   // What is worse than the best by more than this is no rival of it at the next level either.
+  double glance_margin = 0.15;  // while nothing says that the evidence is wrong in part
   double coarse_margin = 0.15;
   double middle_margin = 0.08;
 };

@@ -302,6 +302,7 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
       std::vector<RefinedPose> glanced =
           distinct_poses(refined_all(meshes.coarse, starts, effort == 0 ? glance : close_glance),
                          effort == 0 ? plan.kept_after_glance : plan.kept_with_effort);
+      if (effort == 0) drop_beaten(glanced, plan.glance_margin);
       progress.update(effort == 0 ? 0.4 : 0.6, "refining");
       std::vector<RefinedPose> settled = refined_all(meshes.coarse, poses_of(glanced), coarse);
       progress.update(effort == 0 ? 0.5 : 0.7, "refining");
@@ -314,6 +315,7 @@ PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (settings.starts.empty()) {
     refined = distinct_poses(std::move(refined), plan.kept_for_middle);
+    drop_beaten(refined, plan.coarse_margin);
     const std::vector<OutlinePose> twins =
         with_mirror_twins(poses_of(distinct_poses(refined, 2)), principal_axes_of(meshes.coarse));
     std::vector<RefinedPose> more = refined_all(meshes.coarse, twins, coarse);

@@ -30,6 +30,7 @@ struct Settled {
   RefinedPose pose;
   bool by_photo = false;
   std::optional<double> likelihood;  // logarithm, of the inside
+  std::optional<ShadingFit> inside;
 };
 
 double gain_of(const ShadedPose& shaded, const RefinedPose& by_outline) {
@@ -54,9 +55,11 @@ void ask_inside(NoisyOutline& outline, const LitMesh& mesh, const std::vector<In
   const auto shaded = pose_by_shading(outline, mesh, insides, one.pose);
   if (!shaded) return;
   one.likelihood = shaded->before.log_likelihood();
+  one.inside = shaded->before;
   if (!(gain_of(*shaded, one.pose) > 0)) return;
   // As if both fits had as many samples of their own: those are of the photo, not of the pose.
   one.likelihood = -shaded->before.independent * std::log(shaded->after.sigma);
+  one.inside = shaded->after;
   one.pose = shaded->refined;
   one.by_photo = true;
 }
@@ -148,6 +151,7 @@ SettledPoses settled_poses(const std::vector<RefinedPose>& poses, const OutlineM
     result.poses.push_back(std::move(one.pose));
   }
   result.shaded = settled.front().by_photo;
+  result.inside = settled.front().inside;
   return result;
 }
 

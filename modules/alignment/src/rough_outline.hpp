@@ -8,6 +8,7 @@
 #include "noisy_outline.hpp"
 #include "photo_plane.hpp"
 #include "stencil_evidence.hpp"
+#include "surface_light.hpp"
 
 namespace drape::alignment {
 
@@ -25,6 +26,7 @@ struct SettledPoses {
   OutlineNoise noise;   // about the best pose
   bool smooth = false;  // the best pose, and what scores nearly as well, were fitted to the pixels
   bool shaded = false;  // the photo's inside had a say in the best pose
+  std::optional<ShadingFit> inside;  // about the best pose; nothing where nobody asked
 };
 [[nodiscard]] SettledPoses settled_poses(const std::vector<RefinedPose>& poses, const OutlineMesh& mesh,
                                          const StencilEvidence& evidence, const LensPrior& lens,

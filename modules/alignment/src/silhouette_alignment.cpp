@@ -226,6 +226,10 @@ SettledOutline settled_on_outline(const std::vector<RefinedPose>& found, const M
     result.figures = outline_figures(meshes.full, result.settled.poses.front().pose, stencil,
                                      result.settled.noise, object_px);
     result.figures.by_photo = result.settled.shaded;
+    if (result.settled.inside) {
+      result.figures.explained = result.settled.inside->explained;
+      result.figures.independent = result.settled.inside->independent;
+    }
     return result;
   };
   SettledOutline first = settle(found);

@@ -12,17 +12,20 @@ FeatureTable::FeatureTable(const std::string& file) {
   stream_.open(file);
   if (!stream_) throw input_error("{} cannot be written", file);
   stream_ << "cell,model,index,truth,error_deg,verdict,object_px,noise_px,correlation_px,fits,largest_gap,"
-             "margin,rotation_deg,by_photo,sigma_deg\n";
+             "margin,rotation_deg,by_photo,sigma_deg,explained,independent\n";
 }
 
 void FeatureTable::add(const std::string& cell, const std::string& model, int index, const std::string& truth,
                        double error_deg, alignment::Verdict verdict,
                        const std::optional<alignment::OutlineFigures>& outline, double sigma_deg) {
   if (!stream_.is_open() || !outline) return;
-  stream_ << fmt::format("{},{},{},{},{:.3f},{},{:.0f},{:.3f},{:.2f},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.3f}\n",
-                         cell, model, index, truth, error_deg, verdict_name(verdict), outline->object_px,
-                         outline->noise_px, outline->correlation_px, outline->fits, outline->largest_gap,
-                         outline->margin, outline->rotation_deg, outline->by_photo ? 1 : 0, sigma_deg)
+  stream_ << fmt::format(
+                 "{},{},{},{},{:.3f},{},{:.0f},{:.3f},{:.2f},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.3f},{:.3f},{:."
+                 "0f}\n",
+                 cell, model, index, truth, error_deg, verdict_name(verdict), outline->object_px,
+                 outline->noise_px, outline->correlation_px, outline->fits, outline->largest_gap,
+                 outline->margin, outline->rotation_deg, outline->by_photo ? 1 : 0, sigma_deg,
+                 outline->explained, outline->independent)
           << std::flush;
 }
 

@@ -12,6 +12,7 @@
 #include "noisy_outline.hpp"
 #include "outline_misfit.hpp"
 #include "photo_plane.hpp"
+#include "pose_verdict.hpp"
 #include "shading_refinement.hpp"
 #include "surface_light.hpp"
 #include "surface_view.hpp"
@@ -164,6 +165,28 @@ TEST(SurfaceDrawing, DoesNotSeeTheInsideOfAnOpenMesh) {
   EXPECT_GT(inner, 20);
   mesh.faces.back() = {mesh.faces.back()[0], mesh.faces.back()[2], mesh.faces.back()[1]};
   EXPECT_FALSE(lit_mesh(outline_mesh(mesh, unit_sphere(mesh)), {}).one_sided);
+}
+
+// Light explains the rest of the photo's inside: what it leaves must be noise, not shapes.
+TEST(PoseVerdict, DoubtsAPoseWhoseInsideLeavesShapes) {
+  RefinedPose pose;
+  pose.pose.scale = 150;
+  pose.pose.perspective = 0.2;
+  pose.agreement.rim_inliers = pose.agreement.image_inliers = 0.95;
+  pose.information = 1e6 * PoseMatrix::Identity();
+  OutlineFigures figures;
+  figures.object_px = 300;
+  figures.noise_px = 1.5;
+  figures.fits = 0.95;
+  const auto verdict = [&](double explained, double independent) {
+    figures.explained = explained;
+    figures.independent = independent;
+    return judge_poses({pose}, {}, figures).verdict;
+  };
+  EXPECT_EQ(verdict(0, 0), Verdict::accept);  // nobody asked
+  EXPECT_EQ(verdict(0.95, 300), Verdict::accept);
+  EXPECT_EQ(verdict(0.95, 60), Verdict::review);
+  EXPECT_EQ(verdict(0.4, 60), Verdict::accept);  // paint: light explains little, and what is left has shapes
 }
 
 TEST(SurfaceLight, GradientIsThatOfTheHarmonics) {
