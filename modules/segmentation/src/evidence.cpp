@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "backdrop.hpp"
 #include "cast_shadow.hpp"
+#include "concurrent.hpp"
 #include "drape/base/random.hpp"
 #include "grabcut.hpp"
 #include "object_evidence.hpp"
@@ -63,9 +63,7 @@ Evidence evidence_of_stencil(const Image8& shape) {
   return evidence;
 }
 
-Evidence by_backdrop(const ImageF& lab, const ImageF& empty_scene, const Hints& hints) {
-  const Backdrop backdrop =
-      empty_scene.empty() ? smooth_backdrop(lab) : photographed_backdrop(lab, empty_scene);
+Evidence by_backdrop(const ImageF& lab, const Backdrop& backdrop, const Hints& hints) {
   Evidence evidence;
   evidence.value = backdrop.difference;
   Image8 as_bright(lab.width(), lab.height(), 1, 0);
@@ -154,9 +152,13 @@ Image8 cut_in_box(const Image8& rgb, const ImageF& lab, const Hints& hints, std:
   Image8 all(rgb.width(), rgb.height(), 1, stencil::background);
   for (int y = top; y < bottom; ++y)
     for (int x = left; x < right; ++x) all.at(x, y) = stencil::object;
-  const Image8 from_ellipse =
-      grabcut(rgb, elliptic_guess(rgb.width(), rgb.height(), *hints.box), hints, item_seed(seed, 0));
-  const Image8 from_all = grabcut(rgb, all, hints, item_seed(seed, 1));
+  Image8 from_ellipse;
+  Image8 from_all;
+  run_concurrently({[&] {
+                      from_ellipse = grabcut(rgb, elliptic_guess(rgb.width(), rgb.height(), *hints.box),
+                                             hints, item_seed(seed, 0));
+                    },
+                    [&] { from_all = grabcut(rgb, all, hints, item_seed(seed, 1)); }});
   return edge_share(from_all, lab) > edge_share(from_ellipse, lab) ? from_all : from_ellipse;
 }
 
@@ -186,9 +188,9 @@ bool holds_both_kinds(const Image8& scribbles) {
 
 }  // namespace
 
-Evidence evidence_of(const Image8& rgb, const ImageF& lab, const ImageF& empty_scene, const Hints& hints,
-                     Method method, std::uint64_t seed) {
-  if (method == Method::background) return by_backdrop(lab, empty_scene, hints);
+Evidence evidence_of(const Image8& rgb, const ImageF& lab, const std::optional<Backdrop>& backdrop,
+                     const Hints& hints, std::uint64_t seed) {
+  if (backdrop) return by_backdrop(lab, *backdrop, hints);
   if (holds_both_kinds(hints.scribbles)) return by_scribbles(rgb, lab, hints, seed);
   if (hints.box) return evidence_of_stencil(cut_in_box(rgb, lab, hints, seed));
   return by_contrast(rgb, lab, hints, seed);

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
-#include "drape/segmentation/segment_photo.hpp"
+#include "backdrop.hpp"
 #include "hints.hpp"
 #include "lab_image.hpp"
 
@@ -16,10 +17,11 @@ struct Evidence {
   bool is_a_cut = false;   // a minimum cut has been here already
 };
 
-/// Method::background: by the backdrop (backdrop.hpp); `empty_scene` may be empty. Else, in this order: by
-/// scribbles, by the box, by the click at several scales, by what stands out from the border.
-[[nodiscard]] Evidence evidence_of(const Image8& rgb, const ImageF& lab, const ImageF& empty_scene,
-                                   const Hints& hints, Method method, std::uint64_t seed);
+/// By the backdrop, where one is given, within the box. Else, in this order: by scribbles, by the box, by the
+/// click at several scales, by what stands out from the border.
+[[nodiscard]] Evidence evidence_of(const Image8& rgb, const ImageF& lab,
+                                   const std::optional<Backdrop>& backdrop, const Hints& hints,
+                                   std::uint64_t seed);
 
 /// Share of the outline's pixel sides across which the colour changes by an edge's step (12 Lab units within
 /// 2 pixels); 0 if there is no outline.

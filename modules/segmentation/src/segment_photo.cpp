@@ -7,6 +7,7 @@
 #include "backdrop.hpp"
 #include "boundary_refinement.hpp"
 #include "clusters.hpp"
+#include "concurrent.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/random.hpp"
 #include "evidence.hpp"
@@ -65,18 +66,33 @@ double share_of_largest(const Backdrop& backdrop) {
   return all > 0 ? static_cast<double>(kept) / all : 0;
 }
 
-// The method that Method::automatic stands for: the backdrop if there is one, else GrabCut.
-Method found_method(const ImageF& lab, const ImageF& empty_scene, const Hints& hints) {
-  if (!empty_scene.empty()) return Method::background;
-  if (hints.box || hints.click || !hints.scribbles.empty()) return Method::grabcut;
-  const Backdrop backdrop = smooth_backdrop(lab);
+// Whether a backdrop parts object and surroundings well enough for Method::automatic.
+bool trusted(const Backdrop& backdrop) {
   const auto objects = std::count_if(backdrop.difference.data().begin(), backdrop.difference.data().end(),
                                      [](float difference) { return difference > 1; });
   const double share = static_cast<double>(objects) / static_cast<double>(backdrop.difference.data().size());
   const bool plausible = share > least_object_share && share < most_object_share;
   const bool smooth = backdrop.border_share > least_backdrop_share && backdrop.limit <= roughest_backdrop;
-  return smooth && plausible && share_of_largest(backdrop) > least_share_of_one ? Method::background
-                                                                                : Method::grabcut;
+  return smooth && plausible && share_of_largest(backdrop) > least_share_of_one;
+}
+
+// Nothing where the method, or what Method::automatic stands for, asks for none.
+std::optional<Backdrop> backdrop_for(Method method, const ImageF& lab, const ImageF& empty_scene,
+                                     const Hints& hints) {
+  if (method != Method::background && method != Method::automatic) return std::nullopt;
+  if (!empty_scene.empty()) return photographed_backdrop(lab, empty_scene);
+  const bool hinted = hints.box || hints.click || !hints.scribbles.empty();
+  if (method == Method::automatic && hinted) return std::nullopt;
+  Backdrop backdrop = smooth_backdrop(lab);
+  if (method == Method::automatic && !trusted(backdrop)) return std::nullopt;
+  return backdrop;
+}
+
+Labels segments_at_working_size(const Reduced& r, const SegmentOptions& options, std::uint64_t seed) {
+  const Labels clusters = clusters_of(r.lab, options, seed);
+  return largest_first(merged_regions(connected_regions(clusters), r.lab,
+                                      least_segment_share * r.rgb.width() * r.rgb.height(),
+                                      least_segment_difference));
 }
 
 std::vector<std::uint8_t> picked_segments(const Reduced& r, const SegmentOptions& options) {
@@ -254,13 +270,11 @@ Segmentation segment_photo(const Image8& rgb, const Image8& mask_or_alpha, const
 
   progress.update(0, "finding segments");
   Reduced r = reduced_photo(rgb, region, options);
-  if (options.method == Method::automatic) options.method = found_method(r.lab, r.empty_scene, r.hints);
-  const Labels clusters = clusters_of(r.lab, options, item_seed(seed, 0));
-  r.labels = largest_first(merged_regions(connected_regions(clusters), r.lab,
-                                          least_segment_share * r.rgb.width() * r.rgb.height(),
-                                          least_segment_difference));
+  const std::optional<Backdrop> backdrop = backdrop_for(options.method, r.lab, r.empty_scene, r.hints);
+  if (options.method == Method::automatic) options.method = backdrop ? Method::background : Method::grabcut;
+  run_concurrently({[&] { r.labels = segments_at_working_size(r, options, item_seed(seed, 0)); },
+                    [&] { r.evidence = evidence_of(r.rgb, r.lab, backdrop, r.hints, item_seed(seed, 2)); }});
   progress.update(0.4, "picking the object");
-  r.evidence = evidence_of(r.rgb, r.lab, r.empty_scene, r.hints, options.method, item_seed(seed, 2));
   const std::vector<std::uint8_t> picked = picked_segments(r, options);
 
   progress.update(0.6, "outlining");

@@ -289,16 +289,19 @@ TEST(Scribbles, TellWhichOfTwoDiscsIsMeant) {
 
 TEST(SegmentPhoto, IsTheSameForAnyNumberOfThreads) {
   const Studio s = studio(300, 200, 140, 100, 60);
-  for (const Method method : all_found) {
-    set_thread_count(1);
-    const Segmentation one = segmented(s.photo, with_method(method));
-    set_thread_count(4);
-    const Segmentation four = segmented(s.photo, with_method(method));
-    set_thread_count(0);
-    EXPECT_EQ(one.labels, four.labels);
-    EXPECT_EQ(one.stencil, four.stencil);
-    EXPECT_EQ(one.confidence, four.confidence);
-  }
+  PhotoRegion boxed;
+  boxed.box_px = {70, 30, 140, 140};
+  for (const Method method : all_found)
+    for (const PhotoRegion& region : {PhotoRegion{}, boxed}) {
+      set_thread_count(1);
+      const Segmentation one = segmented(s.photo, with_method(method), region);
+      set_thread_count(4);
+      const Segmentation four = segmented(s.photo, with_method(method), region);
+      set_thread_count(0);
+      EXPECT_EQ(one.labels, four.labels);
+      EXPECT_EQ(one.stencil, four.stencil);
+      EXPECT_EQ(one.confidence, four.confidence);
+    }
 }
 
 TEST(GivenMask, KeepsItsThreeStates) {

@@ -1,0 +1,14 @@
+// A few long tasks at a time.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+
+namespace drape::segmentation {
+
+/// Runs the tasks on several threads. None of them is ever taken up by a thread that waits within another:
+/// OpenCV's random numbers are a state of the thread, which two tasks in one thread would spoil for each
+/// other.
+void run_concurrently(std::initializer_list<std::function<void()>> tasks);
+
+}  // namespace drape::segmentation
