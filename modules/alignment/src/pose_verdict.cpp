@@ -21,7 +21,6 @@ constexpr double most_gap = 0.4;            // of the outline, in one place
 // Where light explains most of what is inside, what is left of the right pose is the photo's noise: nearly
 // every sample has its own. A wrong one leaves whole shapes (simulated photos: 178 and more against 58 to
 // 90).
-constexpr double light_explains = 0.7;
 constexpr double least_independent = 130;
 constexpr double good_elsewhere = 0.95;  // of the rest
 constexpr double same_axis = 0.95;       // cosine
@@ -153,8 +152,9 @@ PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior
         angle_between(best.pose.rotation, poses[1].pose.rotation) * degrees));
   if (judgement.reasons.empty() && !doubts.forgiven.empty()) judgement.reasons.push_back(doubts.forgiven);
   if (judgement.reasons.empty())
-    judgement.reasons.push_back(
-        fmt::format("{:.1f} % of the outline fits, to {:.2f} pixels", 100 * inliers, best.agreement.rms_px));
+    judgement.reasons.push_back(fmt::format("{:.1f} % of the outline fits, to {:.2f} pixels{}", 100 * inliers,
+                                            best.agreement.rms_px,
+                                            figures.by_photo ? "; the light inside agrees" : ""));
   return judgement;
 }
 

@@ -7,6 +7,7 @@
 #include "drape/base/parallel.hpp"
 #include "pixel_fit.hpp"
 #include "shading_refinement.hpp"
+#include "verdict_limits.hpp"
 
 namespace drape::alignment {
 namespace {
@@ -20,17 +21,18 @@ constexpr double margin_deviations = 2;
 constexpr double outline_spread = 1.5;
 constexpr double inside_spread = 2.1;
 constexpr double pixel_spread = 0.35;
-constexpr double pixel_margin = 0.05;     // of the score, within which the pixels are asked
-constexpr double overlap_weight = 2;      // of what they say, beside the score
-constexpr double contender_margin = 0.1;  // of the score: with less the inside is not asked
+constexpr double pixel_margin = 0.05;         // of the score, within which the pixels are asked
+constexpr double overlap_weight = 2;          // of what they say, beside the score
+constexpr double contender_margin = 0.1;      // of the score: with less the inside is not asked
+constexpr OutlineNoise leading_noise{1, 10};  // of a smooth outline while the inside leads
 constexpr double score_per_likelihood = 1.0 / 150;
 constexpr double most_loss = 0.3;
+constexpr double undecided_margin = 0.9 * least_margin;
 
 struct Settled {
-  RefinedPose pose;
+  RefinedPose pose = {};
   bool by_photo = false;
-  std::optional<double> likelihood;  // logarithm, of the inside
-  std::optional<ShadingFit> inside;
+  std::optional<ShadingFit> inside = std::nullopt;
 };
 
 double gain_of(const ShadedPose& shaded, const RefinedPose& by_outline) {
@@ -54,52 +56,113 @@ void ask_inside(NoisyOutline& outline, const LitMesh& mesh, const std::vector<In
                 Settled& one) {
   const auto shaded = pose_by_shading(outline, mesh, insides, one.pose);
   if (!shaded) return;
-  one.likelihood = shaded->before.log_likelihood();
   one.inside = shaded->before;
   if (!(gain_of(*shaded, one.pose) > 0)) return;
-  // As if both fits had as many samples of their own: those are of the photo, not of the pose.
-  one.likelihood = -shaded->before.independent * std::log(shaded->after.sigma);
   one.inside = shaded->after;
   one.pose = shaded->refined;
+  one.pose.spread = inside_spread;
   one.by_photo = true;
 }
 
-// The less likely the inside, the less a pose's score.
+// The less likely the inside, the less a pose's score. Where light explains little of it, paint and shadows
+// may speak for a wrong pose as well: then it gives their order, and they stay rivals.
 void rank_by_inside(std::vector<Settled>& settled) {
-  std::optional<double> best;
+  const Settled* best = nullptr;
   for (const Settled& one : settled)
-    if (one.likelihood) best = std::max(*one.likelihood, best.value_or(*one.likelihood));
+    if (one.inside && (best == nullptr || one.inside->rms < best->inside->rms)) best = &one;
+  if (best == nullptr) return;
+  const ShadingFit inside = *best->inside;
+  double most = 0;
+  for (const Settled& one : settled) most = std::max(most, one.pose.agreement.score());
   for (Settled& one : settled) {
-    if (!one.likelihood) continue;
-    const double loss = std::min(most_loss, score_per_likelihood * (*best - *one.likelihood));
-    one.pose.agreement.ranking = one.pose.agreement.score() - loss;
+    if (!one.inside) continue;
+    // How many samples there are is of the photo: only the right pose leaves them all to themselves.
+    const double unlikely = inside.independent * std::log(one.inside->rms / inside.rms);
+    const double score = one.pose.agreement.score();
+    double ranking = score - std::min(most_loss, score_per_likelihood * unlikely);
+    if (inside.explained < light_explains && score > most - least_margin)
+      ranking = std::max(ranking, most - undecided_margin);
+    one.pose.agreement.ranking = ranking;
   }
 }
 
-// The best pose and what scores nearly as well. Between these the pixels decide: of a clean stencil the right
-// pose meets nearly all of them. Not so of an open mesh, whose holes cover whatever they lie before.
-std::vector<RefinedPose> fitted_to_pixels(const std::vector<RefinedPose>& poses, const OutlineMesh& mesh,
-                                          const StencilEvidence& evidence, const LensPrior& lens) {
-  std::vector<RefinedPose> fitted = poses;
-  const double best = poses.front().agreement.score();
-  const auto end = std::find_if(fitted.begin(), fitted.end(), [&](const RefinedPose& pose) {
-    return pose.agreement.score() < best - pixel_margin;
+void sort_by_score(std::vector<Settled>& settled) {
+  std::stable_sort(settled.begin(), settled.end(), [](const Settled& a, const Settled& b) {
+    return a.pose.agreement.score() > b.pose.agreement.score();
   });
-  parallel_for(static_cast<std::size_t>(end - fitted.begin()), 1, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      fitted[i] = fit_to_pixels(mesh, fitted[i], evidence, lens);
-      fitted[i].spread = pixel_spread;
-    }
-  });
-  double most = 0;
-  for (auto pose = fitted.begin(); pose != end; ++pose) most = std::max(most, pose->agreement.overlap);
-  for (auto pose = fitted.begin(); pose != end && !mesh.open; ++pose)
-    pose->agreement.ranking = pose->agreement.score() - overlap_weight * (most - pose->agreement.overlap);
-  std::stable_sort(fitted.begin(), fitted.end(), [](const RefinedPose& a, const RefinedPose& b) {
-    return a.agreement.score() > b.agreement.score();
-  });
-  return fitted;
 }
+
+std::size_t contenders(const std::vector<Settled>& sorted, double margin) {
+  const double best = sorted.front().pose.agreement.score();
+  const auto end = std::find_if(sorted.begin(), sorted.end(), [&](const Settled& one) {
+    return one.pose.agreement.score() < best - margin;
+  });
+  return static_cast<std::size_t>(end - sorted.begin());
+}
+
+// What needs the outline settles each pose by itself.
+class Settlement {
+ public:
+  Settlement(const OutlineMesh& mesh, const StencilEvidence& evidence, const LensPrior& lens,
+             const OutlineNoise& noise, const Progress& progress)
+      : mesh_(mesh), evidence_(evidence), lens_(lens), noise_(noise), progress_(progress) {}
+
+  /// Sorted, with weights that fit the noise.
+  [[nodiscard]] std::vector<Settled> by_outline(const std::vector<RefinedPose>& poses) const {
+    std::vector<Settled> settled(poses.size());
+    each(poses.size(), [&](NoisyOutline& outline, std::size_t i) {
+      settled[i].pose = settled_pose(outline, poses[i].pose);
+      settled[i].pose.spread = outline_spread;
+    });
+    sort_by_score(settled);
+    return settled;
+  }
+
+  /// Sorted. The best and what scores nearly as well are fitted to the pixels, and these decide between them:
+  /// of a clean stencil the right pose meets nearly all. Not so of an open mesh, whose holes cover whatever
+  /// they lie before.
+  void fit_to_pixels(std::vector<Settled>& settled) const {
+    const std::size_t count = contenders(settled, pixel_margin);
+    each(count, [&](NoisyOutline&, std::size_t i) {
+      settled[i].pose.agreement.ranking.reset();
+      settled[i].pose = alignment::fit_to_pixels(mesh_, settled[i].pose, evidence_, lens_);
+      settled[i].pose.spread = pixel_spread;
+    });
+    double most = 0;
+    for (std::size_t i = 0; i < count; ++i) most = std::max(most, settled[i].pose.agreement.overlap);
+    for (std::size_t i = 0; i < count && !mesh_.open; ++i) {
+      Agreement& fit = settled[i].pose.agreement;
+      fit.ranking = fit.score() - overlap_weight * (most - fit.overlap);
+    }
+    sort_by_score(settled);
+  }
+
+  /// The best of `settled` and what scores nearly as well are asked for what they say of the photo's inside.
+  void by_photo(std::vector<Settled>& settled, const PhotoInside& photo, double margin) const {
+    const LitMesh lit = lit_mesh(mesh_, photo.colors);
+    const std::vector<InsideOfPhoto> insides = insides_of(photo, evidence_, noise_.sigma_px);
+    each(contenders(settled, margin),
+         [&](NoisyOutline& outline, std::size_t i) { ask_inside(outline, lit, insides, settled[i]); });
+  }
+
+ private:
+  template <class Work>
+  void each(std::size_t count, Work work) const {
+    parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (progress_.stop_requested()) return;
+        NoisyOutline outline(mesh_, evidence_, lens_, evidence_.levels() - 1, noise_);
+        work(outline, i);
+      }
+    });
+  }
+
+  const OutlineMesh& mesh_;
+  const StencilEvidence& evidence_;
+  const LensPrior& lens_;
+  const OutlineNoise& noise_;
+  const Progress& progress_;
+};
 
 }  // namespace
 
@@ -108,50 +171,32 @@ SettledPoses settled_poses(const std::vector<RefinedPose>& poses, const OutlineM
                            const std::optional<PhotoInside>& photo, const Progress& progress) {
   SettledPoses result{poses, grid_noise};
   if (poses.empty()) return result;
-  const int last = evidence.levels() - 1;
-  result.noise = noise_about(mesh, poses.front().pose, evidence, last);
-  if (result.noise.sigma_px < rough_px) {
-    result.smooth = true;
-    result.poses = fitted_to_pixels(poses, mesh, evidence, lens);
-    return result;
+  result.noise = noise_about(mesh, poses.front().pose, evidence, evidence.levels() - 1);
+  result.smooth = result.noise.sigma_px < rough_px;
+  const Settlement settlement(mesh, evidence, lens, result.noise, progress);
+  std::vector<Settled> settled;
+  if (result.smooth) {
+    for (const RefinedPose& pose : poses) settled.push_back({pose});
+    settlement.fit_to_pixels(settled);
+    // A smooth outline tells more than the inside does, but not twins apart.
+    if (photo && contenders(settled, least_margin) > 1) {
+      // The inside leads: about its axis a body's facets hold the outline where it is.
+      Settlement(mesh, evidence, lens, leading_noise, progress).by_photo(settled, *photo, least_margin);
+      settlement.fit_to_pixels(settled);
+      rank_by_inside(settled);
+    }
+  } else {
+    settled = settlement.by_outline(poses);
+    if (photo) {
+      settlement.by_photo(settled, *photo, contender_margin);
+      rank_by_inside(settled);
+    }
   }
-  std::optional<LitMesh> lit;
-  std::vector<InsideOfPhoto> insides;
-  if (photo) {
-    lit = lit_mesh(mesh, photo->colors);
-    insides = insides_of(*photo, evidence, result.noise.sigma_px);
-  }
-  std::vector<Settled> settled(poses.size());
-  const auto each_pose = [&](auto work) {
-    parallel_for(poses.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (progress.stop_requested()) return;
-        NoisyOutline outline(mesh, evidence, lens, last, result.noise);
-        work(outline, i);
-      }
-    });
-  };
-  each_pose(
-      [&](NoisyOutline& outline, std::size_t i) { settled[i].pose = settled_pose(outline, poses[i].pose); });
-  if (lit) {
-    double best = 0;
-    for (const Settled& one : settled) best = std::max(best, one.pose.agreement.score());
-    each_pose([&](NoisyOutline& outline, std::size_t i) {
-      if (settled[i].pose.agreement.score() > best - contender_margin)
-        ask_inside(outline, *lit, insides, settled[i]);
-    });
-    rank_by_inside(settled);
-  }
-  std::stable_sort(settled.begin(), settled.end(), [](const Settled& a, const Settled& b) {
-    return a.pose.agreement.score() > b.pose.agreement.score();
-  });
-  result.poses.clear();
-  for (Settled& one : settled) {
-    one.pose.spread = one.by_photo ? inside_spread : outline_spread;
-    result.poses.push_back(std::move(one.pose));
-  }
+  sort_by_score(settled);
   result.shaded = settled.front().by_photo;
   result.inside = settled.front().inside;
+  result.poses.clear();
+  for (Settled& one : settled) result.poses.push_back(std::move(one.pose));
   return result;
 }
 

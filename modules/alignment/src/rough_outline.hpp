@@ -18,7 +18,8 @@ struct PhotoInside {
   const std::vector<Eigen::Vector3f>& colors;  // of the mesh's vertices, or empty
 };
 
-/// Where the outline is smooth the best pose is fitted to its pixels. Where it is rough, each is settled with
+/// Where the outline is smooth the best pose is fitted to its pixels; of several that fit nearly as well each
+/// is moved by the photo's inside, which then tells them apart. Where it is rough, each is settled with
 /// weights that fit the noise, and then by the photo's inside as well, if that is given and makes both more
 /// likely. Sorted anew, by agreements whose inliers allow for the noise.
 struct SettledPoses {

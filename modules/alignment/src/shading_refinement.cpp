@@ -12,7 +12,6 @@ constexpr std::array<int, 3> first_steps_px = {3, 2, 2};  // of the coarsest lev
 constexpr std::size_t most_rounds = 20;
 constexpr double at_rest_sigmas = 0.05;
 constexpr double most_turn_rad = 0.05;
-constexpr double least_evidence = 8;  // of log likelihood, for overruling the outline's order
 
 }  // namespace
 
@@ -139,24 +138,6 @@ std::optional<ShadedPose> pose_by_shading(NoisyOutline& outline, const LitMesh& 
   result.before = *before;
   result.after = *after;
   return result;
-}
-
-std::size_t best_shaded(const LitMesh& mesh, const InsideOfPhoto& photo,
-                        const std::vector<RefinedPose>& poses) {
-  PhotoShading shading(mesh, photo);
-  std::optional<ShadingFit> first;
-  std::size_t best = 0;
-  double most = least_evidence;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const std::optional<ShadingFit> fit = shading.fit(poses[i].pose);
-    if (i == 0) first = fit;
-    if (!first || !fit) continue;
-    const double gain = std::min(first->independent, fit->independent) * std::log(first->sigma / fit->sigma);
-    if (gain <= most) continue;
-    best = i;
-    most = gain;
-  }
-  return best;
 }
 
 }  // namespace drape::alignment

@@ -59,9 +59,4 @@ struct ShadedPose {
                                                         const std::vector<InsideOfPhoto>& coarse_to_fine,
                                                         const RefinedPose& start);
 
-/// Which of `poses`, that the outline cannot tell apart, the photo's inside speaks for; 0 unless another is
-/// better beyond doubt.
-[[nodiscard]] std::size_t best_shaded(const LitMesh& mesh, const InsideOfPhoto& photo,
-                                      const std::vector<RefinedPose>& poses);
-
 }  // namespace drape::alignment

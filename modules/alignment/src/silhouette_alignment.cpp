@@ -23,7 +23,6 @@
 #include "pose_search.hpp"
 #include "pose_verdict.hpp"
 #include "rough_outline.hpp"
-#include "shading_refinement.hpp"
 #include "simplified_mesh.hpp"
 #include "stencil_evidence.hpp"
 
@@ -36,8 +35,6 @@ constexpr int middle_faces = 8000;
 constexpr double fits_well = 0.965;          // of an outline: with less there may be a better pose near by
 constexpr double smooth_distance_px = 0.03;  // of a smooth outline, in the mean
 constexpr int least_object_px = 8;
-constexpr int cue_level = 1;  // where the photo's inside tells rivals apart: an object of 288 pixels
-constexpr double cue_margin_px = 1;
 constexpr double explained_weight = 0.5;  // of the look inside, against the outline's score
 
 MeshLevels mesh_levels(const TriangleMesh& mesh, const UnitSphere& sphere) {
@@ -105,7 +102,7 @@ void rank_by_appearance(std::vector<RefinedPose>& poses, const PhotoEvidence& ev
 // The poses as cameras, the best first, with what is to be thought of them.
 Alignment judged(const std::vector<RefinedPose>& poses, OutlineFigures figures,
                  const SearchSettings& settings, const PhotoEvidence& evidence, const SoughtMesh& sought,
-                 const StencilEvidence* stencil, const PhotoPlane& plane, const AlignOptions& options) {
+                 const PhotoPlane& plane, const AlignOptions& options) {
   const auto& [mesh, sphere, levels] = sought;
   Alignment alignment;
   alignment.evidence = options.evidence;
@@ -120,22 +117,6 @@ Alignment judged(const std::vector<RefinedPose>& poses, OutlineFigures figures,
   for (const RefinedPose& pose : ranked)
     cameras.push_back(camera_of(pose.pose, sphere, options.projection, plane.principal_px(),
                                 evidence.stencil.width(), evidence.stencil.height()));
-  if (stencil != nullptr && judgement.rivals > 0 && evidence.photo != nullptr) {
-    const std::vector<RefinedPose> rivals(ranked.begin(),
-                                          ranked.begin() + 1 + static_cast<std::ptrdiff_t>(judgement.rivals));
-    const int level = std::min(cue_level, stencil->levels() - 1);
-    const auto chosen = static_cast<std::ptrdiff_t>(
-        best_shaded(lit_mesh(levels.full, mesh.colors),
-                    inside_of_photo(*evidence.photo, plane, stencil->at(level), cue_margin_px), rivals));
-    if (chosen > 0) {
-      std::rotate(ranked.begin(), ranked.begin() + chosen, ranked.begin() + chosen + 1);
-      std::rotate(cameras.begin(), cameras.begin() + chosen, cameras.begin() + chosen + 1);
-      const std::size_t count = judgement.rivals;
-      judgement = judge_poses(ranked, settings.lens, figures);
-      judgement.rivals = count;
-      judgement.reasons.push_back("of those poses the photo's shading fits this one best");
-    }
-  }
   alignment.verdict = judgement.verdict;
   alignment.reasons = judgement.reasons;
   for (std::size_t i = 0; i < ranked.size(); ++i)
@@ -269,7 +250,7 @@ Alignment align_silhouette(const SoughtMesh& sought, const PhotoEvidence& eviden
     poses = std::move(settled.settled.poses);
     figures = settled.figures;
   }
-  Alignment alignment = judged(poses, figures, settings, evidence, sought, stencil, plane, options);
+  Alignment alignment = judged(poses, figures, settings, evidence, sought, plane, options);
   if (const auto* colors = dynamic_cast<const ColorEvidence*>(outline.get());
       colors && !found.poses.empty()) {
     alignment.stencil = visible_stencil(mesh, meshes.full, *colors, plane, sphere, alignment.camera);

@@ -113,6 +113,7 @@ ShadingFit SurfaceLight::fit() const {
   fit.independent = std::min(most_independent, fit.pixels / area_);
   double left = 0;
   for (const double r : residuals_) left += std::min(r * r, 9 * sigma_ * sigma_);
+  fit.rms = std::sqrt(left / std::max(1.0, fit.pixels));
   fit.explained = spread_ > 0 ? std::clamp(1 - left / spread_, 0.0, 1.0) : 0.0;
   return fit;
 }
@@ -178,10 +179,6 @@ void SurfaceLight::find_area(int width) {
     }
     area_ *= length;
   }
-}
-
-double ShadingFit::log_likelihood() const {
-  return -independent * std::log(sigma);
 }
 
 Eigen::MatrixXd brightness_changes(const std::vector<SurfacePixel>& view, const Window& window,

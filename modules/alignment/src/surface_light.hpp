@@ -24,13 +24,11 @@ using LightTerms = Eigen::Matrix<double, light_terms, 1>;
 /// nearly all that a matt body shows under any distant light), fitted robustly. Residuals of neighbours share
 /// their error; `independent` says how many there are of which each has an error of its own.
 struct ShadingFit {
-  double sigma = 0;        // of what light does not explain; brightness is 0..1
+  double sigma = 0;  // of what light does not explain, by its median; brightness is 0..1
+  double rms = 0;    // the same, by squares of up to three sigma: half of it may be wrong unseen by a median
   double explained = 0;    // of the variance inside, 0..1
   double independent = 0;  // samples
   double pixels = 0;       // seen and counted
-
-  /// Of the residuals, up to a constant of the photo.
-  [[nodiscard]] double log_likelihood() const;
 };
 
 /// The light that explains a photo's brightness best, by least squares reweighted with Geman and McClure's

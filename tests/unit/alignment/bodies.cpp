@@ -68,4 +68,21 @@ double rotation_between_deg(const Camera& a, const Camera& b) {
          radians;
 }
 
+Image8 lit_photo(const TriangleMesh& mesh, const Camera& camera) {
+  const rendering::DepthMap seen = rendering::Renderer(mesh).depth_map(camera);
+  const Eigen::Vector3d towards = Eigen::Vector3d(-0.5, -0.6, -0.8).normalized();
+  Image8 photo(camera.width, camera.height, 3, 60);
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      const std::int32_t face = seen.faces.at(x, y);
+      if (face == rendering::DepthMap::no_face) continue;
+      Eigen::Vector3d normal = camera.camera_from_world.linear() *
+                               scaled_face_normal(mesh, static_cast<std::size_t>(face)).normalized();
+      if (normal.z() > 0) normal = -normal;
+      for (int k = 0; k < 3; ++k)
+        photo.at(x, y, k) = static_cast<std::uint8_t>(50 + 180 * std::max(0.0, normal.dot(towards)));
+    }
+  return photo;
+}
+
 }  // namespace drape::alignment

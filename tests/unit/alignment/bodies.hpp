@@ -20,6 +20,9 @@ namespace drape::alignment {
 
 [[nodiscard]] Image8 stencil_of(const TriangleMesh& mesh, const Camera& camera);
 
+/// The mesh, matt and grey, under a lamp from above on the left; RGB.
+[[nodiscard]] Image8 lit_photo(const TriangleMesh& mesh, const Camera& camera);
+
 /// The outline of `stencil` waves by up to `amplitude` pixels along x.
 [[nodiscard]] Image8 wavy(const Image8& stencil, double amplitude);
 

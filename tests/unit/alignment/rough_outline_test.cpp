@@ -20,29 +20,11 @@
 namespace drape::alignment {
 namespace {
 
-// A lamp from above on the left.
-Image8 lit(const TriangleMesh& mesh, const Camera& camera) {
-  const rendering::DepthMap seen = rendering::Renderer(mesh).depth_map(camera);
-  const Eigen::Vector3d towards = Eigen::Vector3d(-0.5, -0.6, -0.8).normalized();
-  Image8 photo(camera.width, camera.height, 3, 60);
-  for (int y = 0; y < camera.height; ++y)
-    for (int x = 0; x < camera.width; ++x) {
-      const std::int32_t face = seen.faces.at(x, y);
-      if (face == rendering::DepthMap::no_face) continue;
-      Eigen::Vector3d normal = camera.camera_from_world.linear() *
-                               scaled_face_normal(mesh, static_cast<std::size_t>(face)).normalized();
-      if (normal.z() > 0) normal = -normal;
-      for (int k = 0; k < 3; ++k)
-        photo.at(x, y, k) = static_cast<std::uint8_t>(50 + 180 * std::max(0.0, normal.dot(towards)));
-    }
-  return photo;
-}
-
 TEST(RoughOutline, ThePhotosInsideMakesUpForIt) {
   const TriangleMesh mesh = knobbed_brick();
   const Camera truth = view_of({200, 80, 100}).resized(640, 480);
   const Image8 stencil = wavy(stencil_of(mesh, truth), 5);
-  const Image8 photo = lit(mesh, truth);
+  const Image8 photo = lit_photo(mesh, truth);
   PhotoEvidence evidence{stencil};
   const Alignment by_outline = align_photo(mesh, evidence, {}, 1, {});
   evidence.photo = &photo;
@@ -60,7 +42,7 @@ TEST(RoughOutline, ASmoothOneIsLeftToItself) {
   const TriangleMesh mesh = knobbed_brick();
   const Camera truth = view_of({290, 110, 250}).resized(640, 480);
   const Image8 stencil = stencil_of(mesh, truth);
-  const Image8 photo = lit(mesh, truth);
+  const Image8 photo = lit_photo(mesh, truth);
   PhotoEvidence evidence{stencil};
   const Alignment alone = align_photo(mesh, evidence, {}, 1, {});
   evidence.photo = &photo;

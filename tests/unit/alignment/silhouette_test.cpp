@@ -304,6 +304,14 @@ TEST(Silhouette, DoesNotAcceptOneOfTwoMirrorTwins) {
   for (const AlignmentCandidate& candidate : found.candidates)
     nearest = std::min(nearest, rotation_between_deg(candidate.camera, truth));
   EXPECT_LT(nearest, 0.5);
+  // The light inside tells them apart.
+  const Image8 photo = lit_photo(mesh, truth);
+  PhotoEvidence evidence{stencil_of(mesh, truth)};
+  evidence.photo = &photo;
+  const Alignment told = align(mesh, evidence, options);
+  EXPECT_EQ(told.verdict, Verdict::accept) << told.reasons.front();
+  EXPECT_LT(rotation_between_deg(told.camera, truth), 0.5);
+  EXPECT_TRUE(told.outline->by_photo);
 }
 
 TEST(Silhouette, IsTheSameForAnyNumberOfThreads) {
