@@ -35,9 +35,10 @@ struct Settled {
   std::optional<ShadingFit> inside = std::nullopt;
 };
 
-double gain_of(const ShadedPose& shaded, const RefinedPose& by_outline) {
+// Of log likelihood, inside and outline together.
+double gain_of(const ShadedPose& shaded) {
   const double inside = shaded.before.independent * std::log(shaded.before.sigma / shaded.after.sigma);
-  return inside - (shaded.refined.chi_squared - by_outline.chi_squared) / 2;
+  return inside - (shaded.refined.chi_squared - shaded.chi_squared_before) / 2;
 }
 
 std::vector<InsideOfPhoto> insides_of(const PhotoInside& photo, const StencilEvidence& evidence,
@@ -57,7 +58,7 @@ void ask_inside(NoisyOutline& outline, const LitMesh& mesh, const std::vector<In
   const auto shaded = pose_by_shading(outline, mesh, insides, one.pose);
   if (!shaded) return;
   one.inside = shaded->before;
-  if (!(gain_of(*shaded, one.pose) > 0)) return;
+  if (!(gain_of(*shaded) > 0)) return;
   one.inside = shaded->after;
   one.pose = shaded->refined;
   one.pose.spread = inside_spread;

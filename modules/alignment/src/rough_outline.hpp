@@ -1,4 +1,4 @@
-// The last step of an alignment by a stencil that is rough: what noise leaves open, the photo's inside tells.
+// The last step of an alignment by a stencil: what noise or symmetry leaves open, the photo's inside tells.
 #pragma once
 
 #include <optional>

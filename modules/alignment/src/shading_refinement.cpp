@@ -115,6 +115,7 @@ std::optional<ShadedPose> pose_by_shading(NoisyOutline& outline, const LitMesh& 
       const NormalEquations sum = outline.equations(pose);
       const auto light = shading.equations(pose, directions, step_px);
       if (!light || !outline.matched()) return std::nullopt;
+      if (level == 0 && round == 0) result.chi_squared_before = sum.chi_squared;
       result.refined.pose = pose;
       result.refined.agreement = outline.agreement();
       result.refined.chi_squared = sum.chi_squared;

@@ -52,6 +52,7 @@ class PhotoShading {
 /// the outline's; its information is both's.
 struct ShadedPose {
   RefinedPose refined;
+  double chi_squared_before = 0;  // of the outline at the start
   ShadingFit before;
   ShadingFit after;
 };
