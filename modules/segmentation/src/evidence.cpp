@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cast_shadow.hpp"
-#include "concurrent.hpp"
+#include "drape/base/concurrent.hpp"
 #include "drape/base/random.hpp"
 #include "grabcut.hpp"
 #include "object_evidence.hpp"

@@ -7,7 +7,7 @@
 #include "backdrop.hpp"
 #include "boundary_refinement.hpp"
 #include "clusters.hpp"
-#include "concurrent.hpp"
+#include "drape/base/concurrent.hpp"
 #include "drape/base/error.hpp"
 #include "drape/base/random.hpp"
 #include "evidence.hpp"
