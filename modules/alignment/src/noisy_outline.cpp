@@ -93,10 +93,6 @@ NormalEquations NoisyOutline::equations(const OutlinePose& pose) {
   return sum;
 }
 
-OutlineNoise NoisyOutline::noise_found() const {
-  return outline_noise(drawing_.rim(), residuals_);
-}
-
 RefinedPose settled_pose(NoisyOutline& outline, const OutlinePose& start) {
   const Eigen::MatrixXd directions = free_directions(outline.lens(), false);
   RefinedPose settled;

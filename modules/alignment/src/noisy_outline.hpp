@@ -29,7 +29,6 @@ class NoisyOutline {
 
   [[nodiscard]] NormalEquations equations(const OutlinePose& pose);
   [[nodiscard]] const Agreement& agreement() const { return agreement_; }  // of the last pose
-  [[nodiscard]] OutlineNoise noise_found() const;                          // about the last pose
   [[nodiscard]] const LensPrior& lens() const { return lens_; }
   [[nodiscard]] bool matched() const { return residuals_.size() >= 6; }
 

@@ -18,13 +18,13 @@ constexpr double margin_per_px = 0.02;      // of noise: chance tells poses apar
 constexpr double most_noise_px = 2;         // beyond, the margin grows no more
 constexpr double most_noise_share = 0.012;  // of the object: with more, another object would fit as well
 constexpr double most_gap = 0.4;            // of the outline, in one place
+constexpr double good_elsewhere = 0.95;     // of the rest
 // Where light explains most of what is inside, what is left of the right pose is the photo's noise: nearly
 // every sample has its own. A wrong one leaves whole shapes (simulated photos: 178 and more against 58 to
 // 90).
 constexpr double least_independent = 130;
-constexpr double good_elsewhere = 0.95;  // of the rest
-constexpr double same_axis = 0.95;       // cosine
-constexpr double free_sigma_deg = 8;     // about one axis: the outline hardly changes with the rotation
+constexpr double same_axis = 0.95;    // cosine
+constexpr double free_sigma_deg = 8;  // about one axis: the outline hardly changes with the rotation
 
 struct PoseCovariance {
   PoseSigma sigma;

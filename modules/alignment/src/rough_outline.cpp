@@ -101,7 +101,7 @@ std::size_t contenders(const std::vector<Settled>& sorted, double margin) {
   return static_cast<std::size_t>(end - sorted.begin());
 }
 
-// What needs the outline settles each pose by itself.
+// Each pose by itself, as the outline and the photo's inside tell.
 class Settlement {
  public:
   Settlement(const OutlineMesh& mesh, const StencilEvidence& evidence, const LensPrior& lens,
@@ -111,7 +111,8 @@ class Settlement {
   /// Sorted, with weights that fit the noise.
   [[nodiscard]] std::vector<Settled> by_outline(const std::vector<RefinedPose>& poses) const {
     std::vector<Settled> settled(poses.size());
-    each(poses.size(), [&](NoisyOutline& outline, std::size_t i) {
+    each(poses.size(), [&](std::size_t i) {
+      NoisyOutline outline = noisy_outline();
       settled[i].pose = settled_pose(outline, poses[i].pose);
       settled[i].pose.spread = outline_spread;
     });
@@ -124,7 +125,7 @@ class Settlement {
   /// they lie before.
   void fit_to_pixels(std::vector<Settled>& settled) const {
     const std::size_t count = contenders(settled, pixel_margin);
-    each(count, [&](NoisyOutline&, std::size_t i) {
+    each(count, [&](std::size_t i) {
       settled[i].pose.agreement.ranking.reset();
       settled[i].pose = alignment::fit_to_pixels(mesh_, settled[i].pose, evidence_, lens_);
       settled[i].pose.spread = pixel_spread;
@@ -142,18 +143,23 @@ class Settlement {
   void by_photo(std::vector<Settled>& settled, const PhotoInside& photo, double margin) const {
     const LitMesh lit = lit_mesh(mesh_, photo.colors);
     const std::vector<InsideOfPhoto> insides = insides_of(photo, evidence_, noise_.sigma_px);
-    each(contenders(settled, margin),
-         [&](NoisyOutline& outline, std::size_t i) { ask_inside(outline, lit, insides, settled[i]); });
+    each(contenders(settled, margin), [&](std::size_t i) {
+      NoisyOutline outline = noisy_outline();
+      ask_inside(outline, lit, insides, settled[i]);
+    });
   }
 
  private:
+  [[nodiscard]] NoisyOutline noisy_outline() const {
+    return {mesh_, evidence_, lens_, evidence_.levels() - 1, noise_};
+  }
+
   template <class Work>
   void each(std::size_t count, Work work) const {
     parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (progress_.stop_requested()) return;
-        NoisyOutline outline(mesh_, evidence_, lens_, evidence_.levels() - 1, noise_);
-        work(outline, i);
+        work(i);
       }
     });
   }

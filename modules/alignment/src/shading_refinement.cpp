@@ -90,9 +90,8 @@ std::optional<PhotoShading::Equations> PhotoShading::equations(const OutlinePose
     pull += weight * light.residual(i) * light.look(i);
   }
   const auto solver = light.matrix().ldlt();
-  result.fit = light.fit();
-  const double share = result.fit.independent / result.fit.pixels;
-  const double confidence = share / (result.fit.sigma * result.fit.sigma);
+  const ShadingFit fit = light.fit();
+  const double confidence = fit.independent / fit.pixels / (fit.sigma * fit.sigma);
   result.vector = confidence * (result.vector - mixed * solver.solve(pull));
   result.matrix = (confidence * (result.matrix - mixed * solver.solve(mixed.transpose()))).eval();
   return result;
@@ -120,7 +119,6 @@ std::optional<ShadedPose> pose_by_shading(NoisyOutline& outline, const LitMesh& 
       result.refined.agreement = outline.agreement();
       result.refined.chi_squared = sum.chi_squared;
       result.refined.information = sum.matrix + coordinates * light->matrix * coordinates.transpose();
-      result.after = light->fit;
       Eigen::MatrixXd matrix = directions.transpose() * sum.matrix * directions + light->matrix;
       matrix.diagonal() *= 1 + 1e-6;
       const Eigen::VectorXd solution =

@@ -34,7 +34,6 @@ class PhotoShading {
   struct Equations {
     Eigen::MatrixXd matrix;
     Eigen::VectorXd vector;
-    ShadingFit fit;
   };
   [[nodiscard]] std::optional<Equations> equations(const OutlinePose& pose, const Eigen::MatrixXd& directions,
                                                    int step_px);

@@ -103,7 +103,8 @@ void rank_by_appearance(std::vector<RefinedPose>& poses, const PhotoEvidence& ev
 Alignment judged(const std::vector<RefinedPose>& poses, OutlineFigures figures,
                  const SearchSettings& settings, const PhotoEvidence& evidence, const SoughtMesh& sought,
                  const PhotoPlane& plane, const AlignOptions& options) {
-  const auto& [mesh, sphere, levels] = sought;
+  const TriangleMesh& mesh = sought.mesh;
+  const UnitSphere& sphere = sought.sphere;
   Alignment alignment;
   alignment.evidence = options.evidence;
   alignment.camera.width = evidence.stencil.width();
@@ -241,8 +242,7 @@ Alignment align_silhouette(const SoughtMesh& sought, const PhotoEvidence& eviden
 
   std::vector<RefinedPose> poses = found.poses;
   OutlineFigures figures;
-  const auto* stencil = dynamic_cast<const StencilEvidence*>(outline.get());
-  if (stencil != nullptr && !poses.empty()) {
+  if (const auto* stencil = dynamic_cast<const StencilEvidence*>(outline.get()); stencil && !poses.empty()) {
     std::optional<PhotoInside> inside;
     if (evidence.photo != nullptr) inside.emplace(PhotoInside{*evidence.photo, plane, mesh.colors});
     SettledOutline settled = settled_on_outline(found.poses, meshes, *stencil,

@@ -43,7 +43,7 @@ class SurfaceLight {
   [[nodiscard]] bool sees_enough() const;
   [[nodiscard]] ShadingFit fit() const;
   [[nodiscard]] const LightTerms& coefficients() const { return coefficients_; }
-  /// Of the last weights: the normal equations' matrix for the coefficients.
+  /// The normal equations that gave the coefficients.
   [[nodiscard]] const Eigen::Matrix<double, light_terms, light_terms>& matrix() const { return matrix_; }
 
   /// What counts and is seen, one after the other.

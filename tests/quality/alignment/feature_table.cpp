@@ -19,13 +19,13 @@ void FeatureTable::add(const std::string& cell, const std::string& model, int in
                        double error_deg, alignment::Verdict verdict,
                        const std::optional<alignment::OutlineFigures>& outline, double sigma_deg) {
   if (!stream_.is_open() || !outline) return;
-  stream_ << fmt::format(
-                 "{},{},{},{},{:.3f},{},{:.0f},{:.3f},{:.2f},{:.4f},{:.4f},{:.4f},{:.3f},{},{:.3f},{:.3f},{:."
-                 "0f}\n",
-                 cell, model, index, truth, error_deg, verdict_name(verdict), outline->object_px,
-                 outline->noise_px, outline->correlation_px, outline->fits, outline->largest_gap,
-                 outline->margin, outline->rotation_deg, outline->by_photo ? 1 : 0, sigma_deg,
-                 outline->explained, outline->independent)
+  stream_ << fmt::format("{},{},{},{},{:.3f},{},", cell, model, index, truth, error_deg,
+                         verdict_name(verdict))
+          << fmt::format("{:.0f},{:.3f},{:.2f},{:.4f},{:.4f},{:.4f},{:.3f},", outline->object_px,
+                         outline->noise_px, outline->correlation_px, outline->fits, outline->largest_gap,
+                         outline->margin, outline->rotation_deg)
+          << fmt::format("{},{:.3f},{:.3f},{:.0f}\n", outline->by_photo ? 1 : 0, sigma_deg,
+                         outline->explained, outline->independent)
           << std::flush;
 }
 
