@@ -5,19 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface_light.hpp"
+
 namespace drape::alignment {
 namespace {
 
 constexpr double object_px = 128;  // the object's size in the picture that is compared
 constexpr int least_pixels = 100;
 
+// A constant, and the light to the second order.
 using Regressors = Eigen::Matrix<double, 10, 1>;
 
 Regressors regressors(const Eigen::Vector3d& n, double albedo) {
   Regressors r;
-  r << 1, albedo, albedo * n.x(), albedo * n.y(), albedo * n.z(), albedo * n.x() * n.y(),
-      albedo * n.y() * n.z(), albedo * n.z() * n.x(), albedo * (n.x() * n.x() - n.y() * n.y()),
-      albedo * (3 * n.z() * n.z() - 1);
+  r << 1, albedo * light_harmonics(n).head<9>();
   return r;
 }
 
