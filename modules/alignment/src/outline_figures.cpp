@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "outline_misfit.hpp"
+#include "surface_view.hpp"
 
 namespace drape::alignment {
 
@@ -22,6 +23,7 @@ OutlineFigures outline_figures(const OutlineMesh& mesh, const OutlinePose& pose,
                      std::max(4.0, bridge * figures.object_px * px));
   figures.fits = misfit.fits;
   figures.largest_gap = misfit.largest_gap;
+  figures.inner_side = inner_side_share(mesh, pose, evidence.window(last));
   return figures;
 }
 

@@ -23,6 +23,8 @@ constexpr double good_elsewhere = 0.95;     // of the rest
 // every sample has its own. A wrong one leaves whole shapes (simulated photos: 178 and more against 58 to
 // 90).
 constexpr double least_independent = 130;
+// Seen through an open side: what the scan lacks there may be in front of what it has.
+constexpr double most_inner_side = 0.85;
 constexpr double same_axis = 0.95;    // cosine
 constexpr double free_sigma_deg = 8;  // about one axis: the outline hardly changes with the rotation
 
@@ -135,6 +137,9 @@ PoseJudgement judge_poses(const std::vector<RefinedPose>& poses, const LensPrior
   for (const std::string& reason : doubts.reasons) doubt(reason);
   if (figures.explained > light_explains && figures.independent < least_independent)
     doubt("the photo shows shapes inside the outline where the mesh has none");
+  if (figures.inner_side > most_inner_side)
+    doubt(
+        fmt::format("{:.0f} % of what it shows is the inner side of an open scan", 100 * figures.inner_side));
   const double margin = needed_margin(figures);
   while (judgement.rivals + 1 < poses.size() &&
          best.agreement.score() - poses[judgement.rivals + 1].agreement.score() < margin)

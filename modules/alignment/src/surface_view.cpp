@@ -14,6 +14,11 @@ Eigen::Vector3f area_normal(const OutlineMesh& mesh, const Face& f) {
   return (mesh.vertices[f[1]] - a).cross(mesh.vertices[f[2]] - a).cast<float>();
 }
 
+bool one_sided(const OutlineMesh& mesh) {
+  return mesh.open && std::none_of(mesh.edges.begin(), mesh.edges.end(),
+                                   [](const OutlineEdge& edge) { return edge.turned; });
+}
+
 }  // namespace
 
 LitMesh lit_mesh(const OutlineMesh& mesh, const std::vector<Eigen::Vector3f>& colors) {
@@ -44,8 +49,7 @@ LitMesh lit_mesh(const OutlineMesh& mesh, const std::vector<Eigen::Vector3f>& co
       lit.corner_normals[3 * f + k] = sum.norm() > 0 ? Eigen::Vector3f(sum.normalized()) : own;
     }
   }
-  lit.one_sided = mesh.open && std::none_of(mesh.edges.begin(), mesh.edges.end(),
-                                            [](const OutlineEdge& edge) { return edge.turned; });
+  lit.one_sided = one_sided(mesh);
   if (colors.size() == mesh.vertices.size())
     for (const Eigen::Vector3f& color : colors) lit.brightness.push_back(color.mean());
   return lit;
@@ -104,6 +108,19 @@ void SurfaceDrawing::draw_face(const LitMesh& lit, std::size_t face, const Eigen
         pixel.brightness = wa * lit.brightness[corners[0]] + wb * lit.brightness[corners[1]] +
                            wc * lit.brightness[corners[2]];
     }
+}
+
+double inner_side_share(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window) {
+  if (!one_sided(mesh)) return 0;
+  SurfaceDrawing drawing;
+  drawing.draw(lit_mesh(mesh, {}), pose, window);
+  double covered = 0;
+  double inner = 0;
+  for (const SurfacePixel& pixel : drawing.pixels()) {
+    covered += pixel.covered ? 1 : 0;
+    inner += pixel.covered && !pixel.seen ? 1 : 0;
+  }
+  return covered > 0 ? inner / covered : 0;
 }
 
 }  // namespace drape::alignment

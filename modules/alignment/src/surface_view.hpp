@@ -48,4 +48,7 @@ class SurfaceDrawing {
   std::vector<SurfacePixel> pixels_;
 };
 
+/// The share of what a pose shows of the mesh that is inner side; none unless the mesh is one-sided.
+[[nodiscard]] double inner_side_share(const OutlineMesh& mesh, const OutlinePose& pose, const Window& window);
+
 }  // namespace drape::alignment

@@ -182,6 +182,26 @@ TEST(Silhouette, ForgivesHolesOfTheMeshButNotOfTheObject) {
   EXPECT_LT(align(mesh, closed).overlap_percent, 98);
 }
 
+// What the scan has of it is the other side: its inner side fills the view, and little holds the outline.
+TEST(Silhouette, DoubtsAPoseThatLooksIntoAnOpenMesh) {
+  const TriangleMesh mesh = bumped_torus();
+  const Camera truth = view_of({185, 5, 40}, 24).resized(640, 480);
+  const Image8 photo = stencil_of(mesh, truth);
+  for (const bool from_within : {false, true}) {
+    std::vector<std::uint8_t> keep;
+    for (const Face& f : mesh.faces) {
+      const Eigen::Vector3d middle = (mesh.vertices[f[0]] + mesh.vertices[f[1]] + mesh.vertices[f[2]]) / 3;
+      keep.push_back((middle.z() < 0.02) == from_within ? 1 : 0);
+    }
+    const Alignment found = align(with_faces(mesh, keep), photo);
+    ASSERT_TRUE(found.outline);
+    EXPECT_EQ(found.verdict, from_within ? Verdict::review : Verdict::accept);
+    EXPECT_NEAR(found.outline->inner_side, from_within ? 1 : 0, 0.1);
+    EXPECT_EQ(found.reasons.front().find("inner side") != std::string::npos, from_within);
+    EXPECT_LT(rotation_between_deg(found.camera, truth), from_within ? 5 : 0.5);
+  }
+}
+
 TEST(Silhouette, ForgivesHolesThatTheOutlinePassesThrough) {
   const TriangleMesh mesh = bumped_torus();
   std::vector<std::uint8_t> keep;

@@ -147,6 +147,7 @@ struct OutlineFigures {
   double margin = 1;          // of the score, over the best distinct pose
   double rotation_deg = 0;    // standard deviation about the loosest axis
   bool by_photo = false;      // the photo's inside had a say
+  double inner_side = 0;      // of what the pose shows: inner sides of an open mesh, seen through its holes
   // Of the photo's inside, where a rough outline made it be asked; else 0.
   double explained = 0;    // of the variance of its brightness, by light on the mesh
   double independent = 0;  // samples of what light leaves: neighbours share their error; 300 at most
