@@ -7,6 +7,7 @@
 #include "drape/base/files.hpp"
 #include "drape/io/camera_sidecars.hpp"
 #include "drape/io/mesh_files.hpp"
+#include "drape/io/model_files.hpp"
 #include "drape/io/records.hpp"
 #include "program.hpp"
 #include "support.hpp"
@@ -105,6 +106,19 @@ TEST(BlockRun, AnAtlasThatIsTooSmallForThePhotosIsSaid) {
   ASSERT_EQ(small.exit_code, 0) << small.err;
   EXPECT_NE((small.out + small.err).find("texture.atlas_size_px: 64 is too small"), std::string::npos)
       << small.out << small.err;
+}
+
+TEST(BlockRun, ModelsOfSixteenBitsComeWithTiffs) {
+  const BlockRun run(1, Eigen::Matrix3d::Identity(), {0, 0, 0});
+  const Outcome outcome = run("auto", "export", "texture.color_bits=16");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const fs::path model = run.file("teapot-model");
+  const TexturedMesh read = io::read_textured_ply(model / "model.ply", {});
+  EXPECT_FALSE(read.materials.at(0).deep_image.empty());
+  EXPECT_NE(read_file(model / "model.mtl").find("map_Kd model_atlas_000_color.tif\n"), std::string::npos);
+  EXPECT_TRUE(fs::exists(model / "model_atlas_000_color.tif"));
+  EXPECT_FALSE(fs::exists(model / "model_atlas_000_color.png"));
+  EXPECT_TRUE(fs::exists(model / "model.glb"));
 }
 
 TEST(BlockRun, CamerasElsewhereSeeNothingOfTheMesh) {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -244,6 +245,72 @@ TEST(ColorChecker, KeepsEveryPatchFromTheFileToTheModel) {
       EXPECT_GE(seen, 48U);
       EXPECT_LT(worst, 1) << "jpeg " << jpeg;
     }
+}
+
+// What Little CMS makes of the largest difference to sRGB of a profile, in bytes.
+double largest_difference_to_srgb(const std::string& icc) {
+  const Profile profile(cmsOpenProfileFromMem(icc.data(), static_cast<cmsUInt32Number>(icc.size())));
+  if (!profile) return std::numeric_limits<double>::infinity();
+  const Profile standard(cmsCreate_sRGBProfile());
+  cmsHTRANSFORM transform = cmsCreateTransform(profile.get(), TYPE_RGB_DBL, standard.get(), TYPE_RGB_DBL,
+                                               INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOOPTIMIZE);
+  double worst = 0;
+  Rng rng(4);
+  for (int i = 0; i < 1000; ++i) {
+    const std::array<double, 3> from = {rng.uniform(), rng.uniform(), rng.uniform()};
+    std::array<double, 3> to{};
+    cmsDoTransform(transform, from.data(), to.data(), 1);
+    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, 255 * std::abs(to[k] - from[k]));
+  }
+  cmsDeleteTransform(transform);
+  return worst;
+}
+
+std::uint32_t little_endian(const std::string& bytes, std::size_t at, std::size_t size) {
+  std::uint32_t value = 0;
+  for (std::size_t i = size; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  return value;
+}
+
+/// The profile of a TIFF's first directory (tag 34675); tags have to rise.
+std::string profile_of_tiff(const std::string& tiff) {
+  EXPECT_EQ(tiff.substr(0, 2), "II");
+  const std::size_t directory = little_endian(tiff, 4, 4);
+  std::uint32_t before = 0;
+  std::string profile;
+  for (std::uint32_t i = 0; i < little_endian(tiff, directory, 2); ++i) {
+    const std::size_t at = directory + 2 + 12 * std::size_t{i};
+    EXPECT_GT(little_endian(tiff, at, 2), before);
+    before = little_endian(tiff, at, 2);
+    if (before == 34675)
+      profile = tiff.substr(little_endian(tiff, at + 8, 4), little_endian(tiff, at + 4, 4));
+  }
+  return profile;
+}
+
+TEST(WrittenPictures, SayThatTheirColoursAreSrgb) {
+  const Image8 image = chart();
+  const std::string jpeg = io::encode_image(image, "jpg");
+  // JFIF's own segment comes first, and one of the profile follows.
+  EXPECT_EQ(jpeg.substr(2, 2), "\xFF\xE0");
+  const std::size_t mark = jpeg.find(std::string("ICC_PROFILE\0\1\1", 14));
+  ASSERT_NE(mark, std::string::npos);
+  const std::size_t size =
+      256 * static_cast<unsigned char>(jpeg[mark - 2]) + static_cast<unsigned char>(jpeg[mark - 1]);
+  EXPECT_EQ(jpeg.substr(mark - 4, 2), "\xFF\xE2");
+  EXPECT_LT(largest_difference_to_srgb(jpeg.substr(mark + 14, size - 16)), 0.1);
+  EXPECT_EQ(io::encode_image(image, "jpg"), jpeg);
+  EXPECT_EQ(io::encode_image(image, "jpg", 95, io::Samples::numbers).find("ICC_PROFILE"), std::string::npos);
+
+  const std::string png = io::encode_image(image, "png");
+  EXPECT_EQ(png.substr(33, 13), std::string("\0\0\0\1sRGB\0\xAE\xCE\x1C\xE9", 13));
+  EXPECT_EQ(io::encode_image(image, "png", 95, io::Samples::numbers).find("sRGB"), std::string::npos);
+
+  const ScratchFolder folder;
+  const Image16 deep = deep_from_bytes(image);
+  io::write_tiff(folder / "x.tif", deep);
+  EXPECT_LT(largest_difference_to_srgb(profile_of_tiff(read_file(folder / "x.tif"))), 0.1);
+  EXPECT_EQ(io::read_photo(folder / "x.tif", true).deep_rgb, deep);
 }
 
 }  // namespace

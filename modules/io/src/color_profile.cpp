@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -157,11 +158,12 @@ double encoded(double linear) {  // IEC 61966-2-1
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-/// sRGB byte of a linear value in steps of 1 / 65535.
-std::vector<std::uint8_t> encoding_table() {
-  std::vector<std::uint8_t> table(65536);
+// sRGB values of linear ones in even steps: between them it is straight to a hundredth of a 16-bit step.
+constexpr std::size_t encoding_steps = 65535;
+std::vector<double> encoding_table() {
+  std::vector<double> table(encoding_steps + 2);
   for (std::size_t i = 0; i < table.size(); ++i)
-    table[i] = static_cast<std::uint8_t>(std::lround(255 * encoded(static_cast<double>(i) / 65535)));
+    table[i] = encoded(std::min(1.0, static_cast<double>(i) / encoding_steps));
   return table;
 }
 
@@ -180,15 +182,19 @@ class Converter {
         table_(encoding_table()) {}
 
   template <class Sample>
-  [[nodiscard]] std::array<std::uint8_t, 3> operator()(Sample r, Sample g, Sample b) const {
+  [[nodiscard]] std::array<Sample, 3> operator()(Sample r, Sample g, Sample b) const {
     const Eigen::Vector3d linear =
         srgb_from_linear_ *
         Eigen::Vector3d(at_sample(curves_[0], r), at_sample(curves_[1], g), at_sample(curves_[2], b));
-    std::array<std::uint8_t, 3> bytes{};
-    for (std::size_t k = 0; k < 3; ++k)
-      bytes[k] = table_[static_cast<std::size_t>(
-          std::lround(std::clamp(linear[static_cast<Eigen::Index>(k)], 0.0, 1.0) * 65535))];
-    return bytes;
+    std::array<Sample, 3> samples{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double place = std::clamp(linear[static_cast<Eigen::Index>(k)], 0.0, 1.0) * encoding_steps;
+      const auto below = static_cast<std::size_t>(place);
+      const double value =
+          table_[below] + (place - static_cast<double>(below)) * (table_[below + 1] - table_[below]);
+      samples[k] = static_cast<Sample>(std::lround(value * std::numeric_limits<Sample>::max()));
+    }
+    return samples;
   }
 
   /// Whether no colour of a coarse lattice moves by more than one step: rounding moves some by one.
@@ -208,8 +214,18 @@ class Converter {
  private:
   std::array<Curve, 3> curves_;
   Eigen::Matrix3d srgb_from_linear_;
-  std::vector<std::uint8_t> table_;
+  std::vector<double> table_;
 };
+
+template <class Sample>
+Image<Sample> converted(Image<Sample> rgb, const Converter& convert) {
+  std::vector<Sample>& data = rgb.data();
+  for (std::size_t i = 0; i + 2 < data.size(); i += 3) {
+    const auto samples = convert(data[i], data[i + 1], data[i + 2]);
+    std::copy(samples.begin(), samples.end(), data.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return rgb;
+}
 
 }  // namespace
 
@@ -219,26 +235,15 @@ SrgbPicture to_srgb(Image8 rgb, std::string_view icc) {
   if (!profile) return {std::move(rgb), ProfileKind::not_applied};
   const Converter convert(*profile);
   if (convert.changes_nothing()) return {std::move(rgb), ProfileKind::none};
-  std::vector<std::uint8_t>& data = rgb.data();
-  for (std::size_t i = 0; i + 2 < data.size(); i += 3) {
-    const auto bytes = convert(data[i], data[i + 1], data[i + 2]);
-    std::copy(bytes.begin(), bytes.end(), data.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  return {std::move(rgb), ProfileKind::applied};
+  return {converted(std::move(rgb), convert), ProfileKind::applied};
 }
 
-std::optional<Image8> to_srgb(const Image16& rgb, std::string_view icc) {
+std::optional<Image16> to_srgb(const Image16& rgb, std::string_view icc) {
   const auto profile = parsed(icc);
   if (!profile) return std::nullopt;
   const Converter convert(*profile);
   if (convert.changes_nothing()) return std::nullopt;
-  Image8 result(rgb.width(), rgb.height(), 3);
-  const std::vector<std::uint16_t>& data = rgb.data();
-  for (std::size_t i = 0; i + 2 < data.size(); i += 3) {
-    const auto bytes = convert(data[i], data[i + 1], data[i + 2]);
-    std::copy(bytes.begin(), bytes.end(), result.data().begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  return result;
+  return converted(rgb, convert);
 }
 
 }  // namespace drape::io

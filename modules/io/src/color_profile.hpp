@@ -24,8 +24,8 @@ struct SrgbPicture {
 /// 61966-2-1); colours outside of it are clamped channel by channel. An image without a profile, with one
 /// that is sRGB to half a byte step, or with one that is not read comes back as it is.
 [[nodiscard]] SrgbPicture to_srgb(Image8 rgb, std::string_view icc);
-/// The same for samples of 16 bit, which are reduced to 8 after the conversion: in a wide space 8 bit would
-/// be too few. Nothing where to_srgb would give an image back as it is.
-[[nodiscard]] std::optional<Image8> to_srgb(const Image16& rgb, std::string_view icc);
+/// The same for samples of 16 bit: in a wide space 8 bit would be too few. Nothing where to_srgb would give
+/// an image back as it is.
+[[nodiscard]] std::optional<Image16> to_srgb(const Image16& rgb, std::string_view icc);
 
 }  // namespace drape::io

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "drape/base/error.hpp"
+#include "drape/io/model_files.hpp"
+#include "drape/io/photo.hpp"
 
 namespace drape::io {
 namespace {
@@ -45,6 +47,18 @@ void check_model(const std::filesystem::path& file, const TexturedMesh& model) {
 bool has_flat_faces(const TexturedMesh& model) {
   return std::any_of(model.face_materials.begin(), model.face_materials.end(),
                      [&](std::uint32_t m) { return is_flat(model.materials[m]); });
+}
+
+std::string picture_name(const Material& material) {
+  if (is_flat(material)) return {};
+  return material.name + (material.deep_image.empty() ? ".png" : ".tif");
+}
+
+void write_picture(const std::filesystem::path& file, const Material& material) {
+  if (material.deep_image.empty())
+    write_image(file, material.image);
+  else
+    write_tiff(file, material.deep_image);
 }
 
 }  // namespace drape::io

@@ -117,10 +117,10 @@ std::vector<std::filesystem::path> write_obj(const std::filesystem::path& file, 
   // The OBJ comes last: it is there only when everything that it names is.
   std::vector<std::string> pictures;
   for (const Material& material : model.materials) {
-    pictures.push_back(is_flat(material) ? "" : stem + "_" + material.name + ".png");
+    pictures.push_back(is_flat(material) ? "" : stem + "_" + picture_name(material));
     if (is_flat(material)) continue;
     written.push_back(folder / pictures.back());
-    write_image(written.back(), material.image);
+    write_picture(written.back(), material);
   }
   write_file(written[1], mtl_text(model, pictures));
 

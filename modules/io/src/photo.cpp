@@ -19,13 +19,14 @@ namespace {
 /// The stored picture turned upright. EXIF's orientations (CIPA DC-008, tag 274): 1 as it is, 2 mirrored left
 /// to right, 3 by half a turn, 4 mirrored top to bottom, 5 transposed, 6 by a quarter turn clockwise, 7
 /// transposed across the other diagonal, 8 by a quarter turn counter-clockwise.
-Image8 upright(const Image8& stored, int orientation) {
+template <class Sample>
+Image<Sample> upright(const Image<Sample>& stored, int orientation) {
   if (orientation == 1) return stored;
   const int w = stored.width() - 1;
   const int h = stored.height() - 1;
   const bool turned = orientation >= 5;
-  Image8 image(turned ? stored.height() : stored.width(), turned ? stored.width() : stored.height(),
-               stored.channels());
+  Image<Sample> image(turned ? stored.height() : stored.width(), turned ? stored.width() : stored.height(),
+                      stored.channels());
   const auto source = [&](int x, int y) -> std::pair<int, int> {
     switch (orientation) {
       case 2:
@@ -104,7 +105,7 @@ struct Opened {
   PictureHeader header;
 };
 
-Opened opened(const std::filesystem::path& file) {
+Opened opened(const std::filesystem::path& file, bool keep_depth = false) {
   const std::string name = file.string();
   const std::string bytes = read_file(file);
   Opened result;
@@ -112,8 +113,8 @@ Opened opened(const std::filesystem::path& file) {
   result.exif = read_exif(result.header.exif);
   // OpenCV turns TIFFs by their tag, and them alone.
   const bool tiff = result.header.format == PictureFormat::tiff;
-  result.picture =
-      decode_picture(name, tiff ? without_orientation(bytes) : bytes, !result.header.icc.empty());
+  result.picture = decode_picture(name, tiff ? without_orientation(bytes) : bytes,
+                                  keep_depth || !result.header.icc.empty());
   result.header.exif = {};
   const Image8& pixels = result.picture.pixels;
   if (static_cast<std::uint64_t>(pixels.width()) != result.header.width ||
@@ -136,18 +137,21 @@ void tell_profile(const std::filesystem::path& file, const PictureHeader& header
 
 }  // namespace
 
-Photo read_photo(const std::filesystem::path& file) {
-  const Opened photo = opened(file);
+Photo read_photo(const std::filesystem::path& file, bool keep_depth) {
+  Opened photo = opened(file, keep_depth);
   const Image8 pixels = upright(photo.picture.pixels, photo.exif.orientation);
   Photo result;
   SrgbPicture colors;
-  if (auto converted =
-          photo.picture.deep_rgb.empty() ? std::nullopt : to_srgb(photo.picture.deep_rgb, photo.header.icc))
-    colors = {upright(*converted, photo.exif.orientation), ProfileKind::applied};
-  else
+  Image16& deep = photo.picture.deep_rgb;
+  if (auto converted = deep.empty() ? std::nullopt : to_srgb(deep, photo.header.icc)) {
+    deep = *std::move(converted);
+    colors = {upright(bytes_from_deep(deep), photo.exif.orientation), ProfileKind::applied};
+  } else {
     colors = to_srgb(rgb_of(pixels), photo.header.icc);
+  }
   tell_profile(file, photo.header, colors.kind);
   result.rgb = std::move(colors.rgb);
+  if (keep_depth && !deep.empty()) result.deep_rgb = upright(deep, photo.exif.orientation);
   result.alpha = alpha_of(pixels);
   result.focal_px_prior =
       focal_px(photo.exif, static_cast<int>(photo.header.width), static_cast<int>(photo.header.height));

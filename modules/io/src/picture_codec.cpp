@@ -1,7 +1,5 @@
 #include "picture_codec.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -9,10 +7,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 
 #include "drape/base/error.hpp"
 #include "drape/base/files.hpp"
 #include "drape/io/photo.hpp"
+#include "srgb_tags.hpp"
 
 namespace drape::io {
 namespace {
@@ -31,7 +31,7 @@ std::uint8_t to_byte(std::uint8_t value) {
   return value;
 }
 std::uint8_t to_byte(std::uint16_t value) {
-  return static_cast<std::uint8_t>((value * 255U + 32767U) / 65535U);
+  return byte_from_deep(value);
 }
 
 /// While one lives, std::cerr says nothing: OpenCV's imdecode reports there what it also returns. (drape's
@@ -96,18 +96,20 @@ Image16 deep_rgb(const cv::Mat& mat) {
   Image16 rgb(mat.cols, mat.rows, 3);
   for (int y = 0; y < mat.rows; ++y)
     for (int x = 0; x < mat.cols; ++x)
-      for (int c = 0; c < 3; ++c) rgb.at(x, y, c) = mat.ptr<std::uint16_t>(y)[x * mat.channels() + 2 - c];
+      for (int c = 0; c < 3; ++c)
+        rgb.at(x, y, c) = mat.ptr<std::uint16_t>(y)[x * mat.channels() + (mat.channels() >= 3 ? 2 - c : 0)];
   return rgb;
 }
 
-cv::Mat mat_of(const Image8& image) {
+template <class Sample>
+cv::Mat mat_of(const Image<Sample>& image) {
   const int channels = image.channels();
-  cv::Mat mat(image.height(), image.width(), CV_8UC(channels));
+  cv::Mat mat(image.height(), image.width(), CV_MAKETYPE(cv::DataType<Sample>::depth, channels));
   const std::array<int, 4> source =
       channels >= 3 ? std::array<int, 4>{2, 1, 0, 3} : std::array<int, 4>{0, 1, 2, 3};
   for (int y = 0; y < mat.rows; ++y) {
     const auto row = image.row(y);
-    std::uint8_t* out = mat.ptr<std::uint8_t>(y);
+    Sample* out = mat.ptr<Sample>(y);
     for (int x = 0; x < mat.cols; ++x)
       for (int c = 0; c < channels; ++c)
         out[x * channels + c] =
@@ -141,21 +143,16 @@ cv::Mat decoded(const std::string& file, std::string_view bytes) {
   return mat;
 }
 
-std::string big_endian(std::uint32_t number) {
-  std::string bytes;
-  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(number >> shift & 0xFFU);
-  return bytes;
-}
-
-/// With the chunk that says that its colours are sRGB, to be shown as they look best; it has to come before
-/// the pixels, and does so right behind the header.
-std::string tagged_srgb(std::string png) {
-  constexpr std::size_t behind_header = 8 + 25;
-  constexpr char perceptual = 0;
-  const std::string body = std::string("sRGB") + perceptual;
-  const auto checksum = static_cast<std::uint32_t>(
-      ::crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size())));
-  return png.insert(behind_header, big_endian(1) + body + big_endian(checksum));
+/// The bytes of a file of the kind that its extension names; nothing where OpenCV cannot make them.
+std::optional<std::string> encoded(const char* extension, const cv::Mat& mat,
+                                   const std::vector<int>& parameters) {
+  std::vector<std::uint8_t> bytes;
+  try {
+    if (!cv::imencode(extension, mat, bytes, parameters)) return std::nullopt;
+  } catch (const cv::Exception&) {
+    return std::nullopt;
+  }
+  return std::string(bytes.begin(), bytes.end());
 }
 
 }  // namespace
@@ -178,7 +175,7 @@ DecodedPicture decode_picture(const std::string& file, std::string_view bytes, b
     if (mat.depth() == CV_8U) return converted<std::uint8_t>(mat);
     if (mat.depth() == CV_16U) {
       DecodedPicture picture = converted<std::uint16_t>(mat);
-      if (keep_depth && mat.channels() >= 3) picture.deep_rgb = deep_rgb(mat);
+      if (keep_depth) picture.deep_rgb = deep_rgb(mat);
       return picture;
     }
   }
@@ -194,19 +191,24 @@ std::string encode_image(const Image8& image, const std::string& format, int jpe
     throw Error(ErrorCode::bug, "an image without pixels or with 2 channels cannot be written");
   std::vector<int> parameters;
   if (jpeg) parameters = {cv::IMWRITE_JPEG_QUALITY, std::clamp(jpeg_quality, 1, 100)};
-  std::vector<std::uint8_t> bytes;
-  bool done = false;
-  try {
-    const cv::Mat mat = mat_of(jpeg && image.channels() == 4 ? without_alpha(image) : image);
-    done = cv::imencode(jpeg ? ".jpg" : ".png", mat, bytes, parameters);
-  } catch (const cv::Exception&) {
-    done = false;
-  }
-  if (!done)
+  auto bytes = encoded(jpeg ? ".jpg" : ".png",
+                       mat_of(jpeg && image.channels() == 4 ? without_alpha(image) : image), parameters);
+  if (!bytes)
     throw io_error("an image of {} x {} pixels cannot be written as {}", image.width(), image.height(),
                    format);
-  const std::string encoded(bytes.begin(), bytes.end());
-  return !jpeg && image.channels() >= 3 && samples == Samples::srgb ? tagged_srgb(encoded) : encoded;
+  if (image.channels() < 3 || samples != Samples::srgb) return *std::move(bytes);
+  return jpeg ? srgb_jpeg(*std::move(bytes)) : srgb_png(*std::move(bytes));
+}
+
+std::string encode_tiff(const Image16& image) {
+  silence_opencv();
+  if (image.channels() != 3 || image.empty())
+    throw Error(ErrorCode::bug, "a TIFF is written of three channels");
+  constexpr int lzw = 5;
+  auto bytes = encoded(".tif", mat_of(image), {cv::IMWRITE_TIFF_COMPRESSION, lzw});
+  if (!bytes)
+    throw io_error("an image of {} x {} pixels cannot be written as TIFF", image.width(), image.height());
+  return srgb_tiff(*std::move(bytes));
 }
 
 void write_image(const std::filesystem::path& file, const Image8& image, int jpeg_quality) {
@@ -214,6 +216,10 @@ void write_image(const std::filesystem::path& file, const Image8& image, int jpe
   if (format != "png" && format != "jpg" && format != "jpeg")
     throw io_error("{}: pictures are written as .png or .jpg", file.string());
   write_file(file, encode_image(image, format, jpeg_quality));
+}
+
+void write_tiff(const std::filesystem::path& file, const Image16& image) {
+  write_file(file, encode_tiff(image));
 }
 
 }  // namespace drape::io

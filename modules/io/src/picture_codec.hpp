@@ -5,16 +5,14 @@
 #include <string>
 #include <string_view>
 
-#include "drape/geometry/image.hpp"
+#include "drape/geometry/deep_image.hpp"
 
 namespace drape::io {
-
-using Image16 = Image<std::uint16_t>;  // as Image8, 65535 for 255
 
 struct DecodedPicture {
   Image8 pixels;                     // 1 grey, 3 RGB or 4 RGBA; 16 bit reduced to 8; as stored, not turned
   bool only_zeros_and_ones = false;  // in the file's own depth: a mask of labels
-  Image16 deep_rgb;                  // of a colour picture of 16 bit, if asked for; else empty
+  Image16 deep_rgb;                  // of a picture of 16 bit, grey spread, if asked for; else empty
 };
 
 /// Error{input} if the bytes are no whole picture or hold samples that are not whole numbers of 8 or 16 bits.

@@ -224,7 +224,11 @@ TexturedMesh read_textured_ply(const std::filesystem::path& file,
   add_faces(ply, named, model);
   const std::filesystem::path folder = picture_folder.empty() ? file.parent_path() : picture_folder;
   for (std::size_t i = 0; i < named.materials.size(); ++i)
-    if (!named.pictures[i].empty()) named.materials[i].image = read_photo(folder / named.pictures[i]).rgb;
+    if (!named.pictures[i].empty()) {
+      Photo picture = read_photo(folder / named.pictures[i], true);
+      named.materials[i].image = std::move(picture.rgb);
+      named.materials[i].deep_image = std::move(picture.deep_rgb);
+    }
   model.materials = std::move(named.materials);
   if (const std::string problem = problem_of(model.mesh); !problem.empty())
     throw input_error("{}: {}", file.string(), problem);

@@ -41,7 +41,8 @@ struct ExportOptions {
 
 void describe(Binder& b, ExportOptions& o) {
   b.flag("glb", o.glb, "write model.glb (glTF 2.0): metres, y up, about a local origin");
-  b.flag("obj", o.obj, "write model.obj with model.mtl and its pictures");
+  b.flag("obj", o.obj,
+         "write model.obj with model.mtl and its pictures (PNG; TIFF with texture.color_bits: 16)");
   b.flag("ply", o.ply, "write model.ply with texture coordinates");
   b.flag("colored_ply", o.colored_ply, "write model_colors.ply: a colour per vertex and no pictures");
   b.flag("stl", o.stl, "write model.stl: the shape alone");
@@ -57,7 +58,7 @@ void describe(Binder& b, ExportOptions& o) {
          "maps, so that the fewer "
          "triangles look like it");
   b.choice("glb_textures", o.glb_textures, {{"png", TextureFormat::png}, {"jpeg", TextureFormat::jpeg}},
-           "GLB: PNG keeps every texel, JPEG is smaller");
+           "GLB, whose pictures have 8 bits a channel: PNG keeps every texel, JPEG is smaller");
   b.number(
       "web_triangles", o.web_triangles, {0, 10e6},
       "write model_web.glb, a light copy of about so many triangles and with JPEG textures of 2048 pixels "
@@ -202,8 +203,8 @@ void write_albedo_ply(const ExportOptions& options, const io::WorkspaceFrame& fr
   if (!albedo || !options.ply) return;
   std::vector<std::string> pictures;
   for (const Material& material : albedo->materials) {
-    pictures.push_back(material.image.empty() ? "" : "model_" + material.name + ".png");
-    if (!material.image.empty()) io::write_image(run.output(pictures.back()), material.image);
+    pictures.push_back(material.image.empty() ? "" : "model_" + io::picture_name(material));
+    if (!material.image.empty()) io::write_picture(run.output(pictures.back()), material);
   }
   io::write_textured_ply(run.output("model_albedo.ply"), in_output_frame(*albedo, frame), pictures);
 }
@@ -211,14 +212,14 @@ void write_albedo_ply(const ExportOptions& options, const io::WorkspaceFrame& fr
 void write_models(const ExportOptions& options, const TexturedMesh& moved, pipeline::StageRun& run) {
   std::vector<std::string> pictures;
   for (const Material& material : moved.materials)
-    pictures.push_back(material.image.empty() ? "" : "model_" + material.name + ".png");
+    pictures.push_back(material.image.empty() ? "" : "model_" + io::picture_name(material));
   // The OBJ brings the pictures along; the PLY names the same ones.
   if (options.obj) io::write_obj(run.output("model.obj"), moved);
   if (options.ply) {
     io::write_textured_ply(run.output("model.ply"), moved, pictures);
     if (!options.obj)
       for (std::size_t i = 0; i < pictures.size(); ++i)
-        if (!pictures[i].empty()) io::write_image(run.output(pictures[i]), moved.materials[i].image);
+        if (!pictures[i].empty()) io::write_picture(run.output(pictures[i]), moved.materials[i]);
   }
   if (options.colored_ply) io::write_mesh_ply(run.output("model_colors.ply"), io::with_vertex_colors(moved));
   if (options.stl) io::write_stl(run.output("model.stl"), moved.mesh);
@@ -248,15 +249,17 @@ void run(const ExportOptions& options, pipeline::StageRun& run) {
 pipeline::Stage export_stage() {
   pipeline::Stage stage;
   stage.name = "export";
-  stage.version = 6;
+  stage.version = 7;
   stage.summary = "Writes the model in the formats that viewers open; they are copied to `output`.";
   stage.input_parts = {"up"};
-  stage.reads = {{"fill", "mesh.ply"},      {"fill", "mesh_simplified.ply"}, {"fill", "holes.json"},
-                 {"texture", "model.ply"},  {"texture", "model_albedo.ply"}, {"texture", "textures/*.png"},
-                 {"align", "cameras.json"}, {"texture", "cameras.json"}};
-  stage.writes = {"model.glb", "model_albedo.glb", "model_albedo.ply", "model_web.glb", "model.obj",
-                  "model.mtl", "model.ply",        "model_*.png",      "cameras.json",  "model_colors.ply",
-                  "model.stl", "colmap/*.txt",     "model.mlp",        "metashape.xml"};
+  stage.reads = {
+      {"fill", "mesh.ply"},          {"fill", "mesh_simplified.ply"}, {"fill", "holes.json"},
+      {"texture", "model.ply"},      {"texture", "model_albedo.ply"}, {"texture", "textures/*.png"},
+      {"texture", "textures/*.tif"}, {"align", "cameras.json"},       {"texture", "cameras.json"}};
+  stage.writes = {"model.glb",    "model_albedo.glb", "model_albedo.ply", "model_web.glb",
+                  "model.obj",    "model.mtl",        "model.ply",        "model_*.png",
+                  "model_*.tif",  "cameras.json",     "model_colors.ply", "model.stl",
+                  "colmap/*.txt", "model.mlp",        "metashape.xml"};
   stage.applies = [](const pipeline::Input&) { return true; };
   stage.published = true;
   stage.instantiate = pipeline::stage_body(run);

@@ -18,6 +18,7 @@ constexpr double least_texels_per_pixel = 0.5;  // below, it is seen that the ph
 // A photo with its final stencil: its pixels live as long as the view that refers to them.
 struct LoadedView {
   Image8 rgb;
+  Image16 deep_rgb;
   Image8 stencil;
 };
 
@@ -33,11 +34,14 @@ double pose_sigma_px(const io::CameraRecord& record, const Image8& stencil) {
                                 record.sigma->focal_percent / 100);
 }
 
-std::vector<LoadedView> load_views(const io::CamerasRecord& record, const pipeline::StageRun& run) {
+std::vector<LoadedView> load_views(const io::CamerasRecord& record, bool deep,
+                                   const pipeline::StageRun& run) {
   std::vector<LoadedView> views;
   for (std::size_t i = 0; i < record.cameras.size(); ++i) {
     LoadedView& view = views.emplace_back();
-    view.rgb = io::read_photo(run.input().photos[i].image).rgb;
+    io::Photo photo = io::read_photo(run.input().photos[i].image, deep);
+    view.rgb = std::move(photo.rgb);
+    view.deep_rgb = std::move(photo.deep_rgb);
     view.stencil = io::read_stencil(run.artifact("align", record.cameras[i].stencil), view.rgb.width(),
                                     view.rgb.height());
   }
@@ -47,8 +51,8 @@ std::vector<LoadedView> load_views(const io::CamerasRecord& record, const pipeli
 void write_model(const std::string& file, const TexturedMesh& model, pipeline::StageRun& run) {
   std::vector<std::string> names;
   for (const Material& material : model.materials) {
-    names.push_back(material.image.empty() ? "" : material.name + ".png");
-    if (!material.image.empty()) io::write_image(run.output("textures/" + names.back()), material.image);
+    names.push_back(material.image.empty() ? "" : io::picture_name(material));
+    if (!material.image.empty()) io::write_picture(run.output("textures/" + names.back()), material);
   }
   io::write_textured_ply(run.output(file), model, names);
 }
@@ -75,12 +79,13 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
   const TriangleMesh full = io::read_mesh(run.artifact("fill", "mesh.ply"));
   const TriangleMesh simplified = io::read_mesh(run.artifact("fill", "mesh_simplified.ply"));
   const io::CamerasRecord record = io::read_cameras(run.artifact("align", "cameras.json"));
-  const std::vector<LoadedView> loaded = load_views(record, run);
+  const std::vector<LoadedView> loaded =
+      load_views(record, options.color_bits == texturing::ColorBits::sixteen, run);
   std::vector<texturing::TextureView> views;
   for (std::size_t i = 0; i < loaded.size(); ++i)
     views.push_back({loaded[i].rgb, record.cameras[i].camera, loaded[i].stencil, three_digits(i) + "_color",
                      record.cameras[i].verdict != io::Verdict::reject,
-                     pose_sigma_px(record.cameras[i], loaded[i].stencil)});
+                     pose_sigma_px(record.cameras[i], loaded[i].stencil), &loaded[i].deep_rgb});
   const texturing::TextureResult result =
       texturing::texture_mesh(simplified, full, views, options, run.progress());
   const bool any_usable = std::any_of(views.begin(), views.end(), [](const auto& v) { return v.usable; });
@@ -127,14 +132,14 @@ void run(const texturing::TextureOptions& options, pipeline::StageRun& run) {
 pipeline::Stage texture_stage() {
   pipeline::Stage stage;
   stage.name = "texture";
-  stage.version = 7;
+  stage.version = 8;
   stage.summary = "Drapes the photos over the mesh: hidden surfaces, borders, unseen parts.";
   stage.input_parts = {"photos"};
   stage.reads = {{"fill", "mesh.ply"},
                  {"fill", "mesh_simplified.ply"},
                  {"align", "cameras.json"},
                  {"align", "*/stencil.png"}};
-  stage.writes = {"model.ply", "model_albedo.ply", "cameras.json", "textures/*.png"};
+  stage.writes = {"model.ply", "model_albedo.ply", "cameras.json", "textures/*.png", "textures/*.tif"};
   stage.applies = [](const pipeline::Input& input) { return !input.photos.empty(); };
   stage.instantiate = pipeline::stage_body(run);
   return stage;

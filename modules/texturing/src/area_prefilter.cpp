@@ -50,17 +50,21 @@ void filter(float* first, int count, std::ptrdiff_t stride, int size) {
 
 }  // namespace
 
-void prefilter_areas(Image8& rgb) {
+template <class Sample>
+void prefilter_areas(Image<Sample>& rgb) {
   Plane plane{rgb.width(), rgb.height(), {}};
   plane.values.resize(static_cast<std::size_t>(rgb.width()) * static_cast<std::size_t>(rgb.height()));
   for (int c = 0; c < 3; ++c) {
     for (int y = 0; y < rgb.height(); ++y)
-      for (int x = 0; x < rgb.width(); ++x) plane.row(y)[x] = linear_from_byte(rgb.at(x, y, c));
+      for (int x = 0; x < rgb.width(); ++x) plane.row(y)[x] = linear_from(rgb.at(x, y, c));
     for (int y = 0; y < rgb.height(); ++y) filter(plane.row(y), rgb.width(), 1, 1);
     filter(plane.row(0), rgb.height(), rgb.width(), rgb.width());
     for (int y = 0; y < rgb.height(); ++y)
-      for (int x = 0; x < rgb.width(); ++x) rgb.at(x, y, c) = byte_from_linear(plane.row(y)[x]);
+      for (int x = 0; x < rgb.width(); ++x) rgb.at(x, y, c) = stored_as<Sample>(plane.row(y)[x]);
   }
 }
+
+template void prefilter_areas(Image8& rgb);
+template void prefilter_areas(Image16& rgb);
 
 }  // namespace drape::texturing

@@ -1,7 +1,7 @@
 // Pixels are means over areas; texels are what goes between them.
 #pragma once
 
-#include "drape/geometry/image.hpp"
+#include "drape/geometry/deep_image.hpp"
 
 namespace drape::texturing {
 
@@ -11,6 +11,9 @@ namespace drape::texturing {
 /// numbers); inverting 1/16, 7/8, 1/16 instead keeps the noise small. Two recursions do it (Unser, "Splines:
 /// a perfect fit for signal and image processing", IEEE Signal Processing Magazine 1999, box 2); beyond the
 /// border the picture is mirrored.
-void prefilter_areas(Image8& rgb);
+template <class Sample>
+void prefilter_areas(Image<Sample>& rgb);
+extern template void prefilter_areas(Image8& rgb);
+extern template void prefilter_areas(Image16& rgb);
 
 }  // namespace drape::texturing

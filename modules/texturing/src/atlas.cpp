@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "atlas_packing.hpp"
 #include "drape/base/parallel.hpp"
@@ -70,6 +71,16 @@ Shares shares_of(const AtlasPaint& paint, std::uint32_t f) {
   return shares;
 }
 
+// The page's picture of so many bits.
+template <class Sample>
+Image<Sample>& color_of(AtlasPage& page) {
+  if constexpr (std::is_same_v<Sample, std::uint8_t>)
+    return page.color;
+  else
+    return page.deep_color;
+}
+
+template <class Sample>
 class PagePainter {
  public:
   PagePainter(const AtlasPaint& paint, std::vector<PageFace> faces, int side)
@@ -100,7 +111,11 @@ class PagePainter {
       }
     });
     grow_colors(color_, done_);
-    return {std::move(color_), std::move(coverage_)};
+    AtlasPage page;
+    page.side = side_;
+    color_of<Sample>(page) = std::move(color_);
+    page.coverage = std::move(coverage_);
+    return page;
   }
 
  private:
@@ -111,8 +126,8 @@ class PagePainter {
       for_texels(f.texels, margin, bounds, [&](int x, int y, const Eigen::Vector3d& weights) {
         if (done_.at(x, y) != 0) return;
         done_.at(x, y) = 1;
-        const Eigen::Vector3f color = color_of(f, weights);
-        for (int c = 0; c < 3; ++c) color_.at(x, y, c) = byte_from_linear(color[c]);
+        const Eigen::Vector3f color = color_at(f, weights);
+        for (int c = 0; c < 3; ++c) color_.at(x, y, c) = stored_as<Sample>(color[c]);
         if (margin == 0) mark(f, weights, x, y);
       });
     }
@@ -126,7 +141,7 @@ class PagePainter {
            weights[2] * mesh.vertices[face[2]];
   }
 
-  [[nodiscard]] Eigen::Vector3f color_of(const PageFace& f, const Eigen::Vector3d& weights) const {
+  [[nodiscard]] Eigen::Vector3f color_at(const PageFace& f, const Eigen::Vector3d& weights) const {
     const Eigen::Vector3d x = point_of(f, weights);
     const Eigen::Vector3f w = weights.cast<float>();
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -166,7 +181,7 @@ class PagePainter {
   const AtlasPaint& paint_;
   std::vector<PageFace> faces_;
   int side_;
-  Image8 color_;
+  Image<Sample> color_;
   Image8 done_;  // where it is painted
   Image8 coverage_;
   std::vector<std::vector<std::uint32_t>> bands_;
@@ -197,7 +212,7 @@ std::vector<Seam> seams_of(const AtlasPaint& paint, const Atlas& atlas) {
   const auto place_of = [&](std::uint32_t face, std::uint32_t vertex) -> Eigen::Vector2d {
     const Face& f = mesh.faces[face];
     const auto k = static_cast<std::size_t>(std::find(f.begin(), f.end(), vertex) - f.begin());
-    return atlas.corner_uvs[face][k].cast<double>() * atlas.pages[atlas.face_pages[face]].color.width();
+    return atlas.corner_uvs[face][k].cast<double>() * atlas.pages[atlas.face_pages[face]].side;
   };
   std::vector<Seam> seams;
   for (const FaceEdge& e : face_edges(mesh)) {
@@ -213,10 +228,17 @@ std::vector<Seam> seams_of(const AtlasPaint& paint, const Atlas& atlas) {
   return seams;
 }
 
-void match_seams(const AtlasPaint& paint, Atlas& atlas) {
-  std::vector<Image8*> pages;
-  for (AtlasPage& page : atlas.pages) pages.push_back(&page.color);
-  match_texels_along(seams_of(paint, atlas), pages);
+template <class Sample>
+void paint_pages(const AtlasPaint& paint, std::vector<std::vector<PageFace>> faces,
+                 const std::vector<int>& sides, const Progress& progress, Atlas& atlas) {
+  for (std::size_t page = 0; page < faces.size(); ++page) {
+    progress.update(static_cast<double>(page) / static_cast<double>(faces.size()), "painting");
+    atlas.pages.push_back(PagePainter<Sample>(paint, std::move(faces[page]), sides[page]).painted());
+  }
+  if (!paint.match_seams) return;
+  std::vector<Image<Sample>*> pages;
+  for (AtlasPage& page : atlas.pages) pages.push_back(&color_of<Sample>(page));
+  match_texels_along<Sample>(seams_of(paint, atlas), pages);
 }
 
 }  // namespace
@@ -249,13 +271,13 @@ Atlas painted_atlas(const AtlasPaint& paint, int most_side, int padding_px, cons
       faces[page].push_back(std::move(f));
     }
   }
-  for (std::size_t page = 0; page < faces.size(); ++page) {
-    progress.update(0.1 + 0.9 * static_cast<double>(page) / static_cast<double>(faces.size()), "painting");
-    const int side = layout.packing.sides[page];
-    all += static_cast<double>(side) * side;
-    atlas.pages.push_back(PagePainter(paint, std::move(faces[page]), side).painted());
+  if (paint.paint_deep) {
+    paint_pages<std::uint16_t>(paint, std::move(faces), layout.packing.sides, progress.part(0.1, 1), atlas);
+    for (AtlasPage& page : atlas.pages) page.color = bytes_from_deep(page.deep_color);
+  } else {
+    paint_pages<std::uint8_t>(paint, std::move(faces), layout.packing.sides, progress.part(0.1, 1), atlas);
   }
-  if (paint.match_seams) match_seams(paint, atlas);
+  for (const int side : layout.packing.sides) all += static_cast<double>(side) * side;
   if (pixels > 0) atlas.texels_per_pixel = std::sqrt(used / pixels);
   atlas.used_percent = all > 0 ? 100 * used / all : 0;
   return atlas;

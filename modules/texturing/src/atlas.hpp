@@ -21,11 +21,14 @@ struct AtlasPaint {
   std::span<const VertexGains> gains;
   std::span<const PhotoSight> sights;
   std::span<const PhotoColors> colors;
+  bool paint_deep = false;  // in 16 bits a channel, as `colors` then are
   bool match_seams = true;  // texels on both sides of a seam show the same (match_texels_along)
 };
 
 struct AtlasPage {
-  Image8 color;     // RGB, sRGB-encoded, square
+  int side = 0;
+  Image8 color;        // RGB, sRGB-encoded, square
+  Image16 deep_color;  // the same before it was reduced to 8 bits, where it was painted in 16
   Image8 coverage;  // RGB: one colour per photo, orange where a photo's colours were grown, black elsewhere
 };
 

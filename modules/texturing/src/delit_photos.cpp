@@ -66,7 +66,7 @@ CoarseView coarse_view(const PhotoSight& sight) {
 class Gatherer {
  public:
   Gatherer(const TriangleMesh& mesh, rendering::Renderer& renderer, std::span<const PhotoSight> sights,
-           const std::vector<const Image8*>& photos)
+           const std::vector<PhotoPixels>& photos)
       : mesh_(mesh), renderer_(renderer), sights_(sights), photos_(photos), normals_(mesh) {}
 
   LightEvidence gathered() {
@@ -94,7 +94,7 @@ class Gatherer {
         const Vector3d point = view.camera.unproject({x + 0.5, y + 0.5}, map.depth.at(x, y));
         const Vector3d normal = normals_.at(face, point);
         if (normal.dot(sight.camera().towards_camera(point)) < least_cosine) continue;
-        const auto light = light_about(*photos_[i], sight.trusted(), sight.pixel_of(point), view.step);
+        const auto light = light_about(*photos_[i].rgb, sight.trusted(), sight.pixel_of(point), view.step);
         if (!light) continue;
         at[static_cast<std::size_t>(y * width + x)] = static_cast<std::int64_t>(evidence.samples.size());
         evidence.samples.push_back(
@@ -150,7 +150,8 @@ class Gatherer {
       const PhotoSight& sight = sights_[i];
       if (place.normal.dot(sight.camera().towards_camera(place.point)) < least_cosine) continue;
       if (sight.sees(place.point, place.normal, normals_.of_face(place.face)) != trust::full) continue;
-      const auto light = light_about(*photos_[i], sight.trusted(), sight.pixel_of(place.point), steps_[i]);
+      const auto light =
+          light_about(*photos_[i].rgb, sight.trusted(), sight.pixel_of(place.point), steps_[i]);
       if (light) evidence.shared.push_back({s, static_cast<int>(i), log_of(*light)});
     }
   }
@@ -158,7 +159,7 @@ class Gatherer {
   const TriangleMesh& mesh_;
   rendering::Renderer& renderer_;
   std::span<const PhotoSight> sights_;
-  const std::vector<const Image8*>& photos_;
+  const std::vector<PhotoPixels>& photos_;
   SurfaceNormals normals_;
   std::vector<int> steps_;
 };
@@ -190,13 +191,23 @@ class Shading {
   std::vector<rendering::SoftShadow> shadows_;
 };
 
-DelitPhoto delit(const Image8& rgb, const PhotoSight& sight, rendering::Renderer& renderer,
+template <class Sample>
+void divide(Sample& stored, double light) {
+  stored = stored_as<Sample>(linear_from(stored) / static_cast<float>(light));
+}
+
+Image16 deep_pixels(const PhotoPixels& pixels) {
+  return pixels.deep != nullptr && !pixels.deep->empty() ? *pixels.deep : deep_from_bytes(*pixels.rgb);
+}
+
+DelitPhoto delit(const PhotoPixels& pixels, const PhotoSight& sight, rendering::Renderer& renderer,
                  const Shading& shading, float factor) {
+  const Image8& rgb = *pixels.rgb;
   const Camera camera = depth_camera(sight.camera());
   const rendering::DepthMap map = renderer.depth_map(camera);
   const double scale_x = static_cast<double>(camera.width) / rgb.width();
   const double scale_y = static_cast<double>(camera.height) / rgb.height();
-  DelitPhoto photo{rgb, sight.trusted()};
+  DelitPhoto photo{rgb, pixels.paint_deep ? deep_pixels(pixels) : Image16(), sight.trusted()};
   parallel_for(static_cast<std::size_t>(rgb.height()), 16, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
       for (int x = 0; x < rgb.width(); ++x) {
@@ -214,10 +225,13 @@ DelitPhoto delit(const Image8& rgb, const PhotoSight& sight, rendering::Renderer
         const Vector3d point = camera.unproject({column + 0.5, row + 0.5}, map.depth.at(column, row));
         const Eigen::Array3d light = shading.at(static_cast<std::uint32_t>(map.faces.at(column, row)), point);
         for (int c = 0; c < 3; ++c)
-          photo.rgb.at(x, y, c) =
-              byte_from_linear(factor * linear_from_byte(rgb.at(x, y, c)) / static_cast<float>(light[c]));
+          if (pixels.paint_deep)
+            divide(photo.deep_rgb.at(x, y, c), light[c] / factor);
+          else
+            divide(photo.rgb.at(x, y, c), light[c] / factor);
       }
   });
+  if (pixels.paint_deep) photo.rgb = bytes_from_deep(photo.deep_rgb);
   return photo;
 }
 
@@ -241,7 +255,7 @@ float brightness_factor(const LightEvidence& evidence, const std::vector<PhotoLi
 }  // namespace
 
 Delighting delit_photos(const TriangleMesh& mesh, std::span<const PhotoSight> sights,
-                        const std::vector<const Image8*>& photos, const Progress& progress) {
+                        const std::vector<PhotoPixels>& photos, const Progress& progress) {
   rendering::Renderer renderer(mesh);
   LightEvidence evidence = Gatherer(mesh, renderer, sights, photos).gathered();
   std::vector<SurfacePlace> places;
@@ -270,7 +284,7 @@ Delighting delit_photos(const TriangleMesh& mesh, std::span<const PhotoSight> si
     progress.update(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(sights.size()),
                     "taking light out");
     const Shading shading(mesh, renderer, transfer, result.lights[i]);
-    result.photos.push_back(delit(*photos[i], sights[i], renderer, shading, factor));
+    result.photos.push_back(delit(photos[i], sights[i], renderer, shading, factor));
   }
   return result;
 }

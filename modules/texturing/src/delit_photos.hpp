@@ -5,16 +5,18 @@
 #include <vector>
 
 #include "drape/base/progress.hpp"
-#include "drape/geometry/image.hpp"
+#include "drape/geometry/deep_image.hpp"
 #include "drape/geometry/triangle_mesh.hpp"
+#include "grown_photo.hpp"
 #include "light_fit.hpp"
 #include "photo_sight.hpp"
 
 namespace drape::texturing {
 
 struct DelitPhoto {
-  Image8 rgb;      // albedo where the photo sees the surface, sRGB-encoded
-  Image8 trusted;  // as the sight's, but none where there is no surface to know the light of
+  Image8 rgb;        // albedo where the photo sees the surface, sRGB-encoded
+  Image16 deep_rgb;  // the same in 16 bits, where the photo is painted so
+  Image8 trusted;    // as the sight's, but none where there is no surface to know the light of
 };
 
 struct Delighting {
@@ -27,6 +29,6 @@ struct Delighting {
 /// albedo's common brightness and tint are those of the photos, darkened where bright paint would not fit.
 /// `photos[i]`: what sight i looks at. Highlights stay: light is taken for diffuse.
 [[nodiscard]] Delighting delit_photos(const TriangleMesh& mesh, std::span<const PhotoSight> sights,
-                                      const std::vector<const Image8*>& photos, const Progress& progress);
+                                      const std::vector<PhotoPixels>& photos, const Progress& progress);
 
 }  // namespace drape::texturing

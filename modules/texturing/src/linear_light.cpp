@@ -40,6 +40,20 @@ std::uint8_t byte_from_linear(float value) {
   return table[static_cast<std::size_t>(steps * std::clamp(value, 0.F, 1.F) + 0.5F)];
 }
 
+float linear_from(std::uint16_t value) {
+  static const std::vector<float> table = [] {
+    std::vector<float> t;
+    for (int i = 0; i <= 65535; ++i) t.push_back(linear(static_cast<float>(i) / 65535.F));
+    return t;
+  }();
+  return table[value];
+}
+
+template <>
+std::uint16_t stored_as<std::uint16_t>(float value) {
+  return static_cast<std::uint16_t>(std::lround(65535.F * stored(value)));
+}
+
 Eigen::Vector3f linear_from_stored(const Eigen::Vector3f& value) {
   return value.unaryExpr([](float v) { return linear(v); });
 }

@@ -26,31 +26,42 @@ PixelBox usable_box(const Image8& trusted) {
           std::min(trusted.height(), box.bottom + margin_px)};
 }
 
-}  // namespace
-
-PhotoColors::PhotoColors(const Image8& rgb, const Image8& trusted)
-    : box_(usable_box(trusted)), grown_(grown_photo(rgb, trusted, box_)) {
-  prefilter_areas(grown_);
-}
-
-Eigen::Vector3f PhotoColors::at(const Eigen::Vector2d& pixel) const {
-  const double px = std::clamp(pixel.x() - box_.left - 0.5, 0.0, grown_.width() - 1.0);
-  const double py = std::clamp(pixel.y() - box_.top - 0.5, 0.0, grown_.height() - 1.0);
+// Linear light between the four pixels round a position, which is kept within the picture.
+template <class Sample>
+Eigen::Vector3f between(const Image<Sample>& rgb, const Eigen::Vector2d& place) {
+  const double px = std::clamp(place.x() - 0.5, 0.0, rgb.width() - 1.0);
+  const double py = std::clamp(place.y() - 0.5, 0.0, rgb.height() - 1.0);
   const int x = static_cast<int>(px);
   const int y = static_cast<int>(py);
-  const int right = std::min(x + 1, grown_.width() - 1);
-  const int below = std::min(y + 1, grown_.height() - 1);
+  const int right = std::min(x + 1, rgb.width() - 1);
+  const int below = std::min(y + 1, rgb.height() - 1);
   const auto fx = static_cast<float>(px - x);
   const auto fy = static_cast<float>(py - y);
   Eigen::Vector3f color;
   for (int c = 0; c < 3; ++c) {
-    const float over =
-        (1 - fx) * linear_from_byte(grown_.at(x, y, c)) + fx * linear_from_byte(grown_.at(right, y, c));
-    const float under = (1 - fx) * linear_from_byte(grown_.at(x, below, c)) +
-                        fx * linear_from_byte(grown_.at(right, below, c));
+    const float over = (1 - fx) * linear_from(rgb.at(x, y, c)) + fx * linear_from(rgb.at(right, y, c));
+    const float under =
+        (1 - fx) * linear_from(rgb.at(x, below, c)) + fx * linear_from(rgb.at(right, below, c));
     color[c] = (1 - fy) * over + fy * under;
   }
   return color;
+}
+
+}  // namespace
+
+PhotoColors::PhotoColors(const PhotoPixels& photo, const Image8& trusted) : box_(usable_box(trusted)) {
+  if (photo.paint_deep) {
+    deep_grown_ = deep_grown_photo(photo, trusted, box_);
+    prefilter_areas(deep_grown_);
+  } else {
+    grown_ = grown_photo(*photo.rgb, trusted, box_);
+    prefilter_areas(grown_);
+  }
+}
+
+Eigen::Vector3f PhotoColors::at(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d place = pixel - Eigen::Vector2d(box_.left, box_.top);
+  return deep_grown_.empty() ? between(grown_, place) : between(deep_grown_, place);
 }
 
 Eigen::Vector3f PhotoColors::smooth_at(const Eigen::Vector2d& pixel) const {

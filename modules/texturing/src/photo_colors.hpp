@@ -11,7 +11,7 @@ class PhotoColors {
  public:
   PhotoColors() = default;
   /// Grown within the box of the pixels that may be used and a margin for filters.
-  PhotoColors(const Image8& rgb, const Image8& trusted);
+  PhotoColors(const PhotoPixels& photo, const Image8& trusted);
 
   /// Linear light between the four pixels round a position in the photo; beyond the box as on its border.
   [[nodiscard]] Eigen::Vector3f at(const Eigen::Vector2d& pixel) const;
@@ -23,6 +23,7 @@ class PhotoColors {
  private:
   PixelBox box_{};
   Image8 grown_;
+  Image16 deep_grown_;  // instead of it, where the photo is painted in 16 bits
 };
 
 /// Log of light, with a floor that keeps the noise of dark colours small.

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "edge_splits.hpp"
-#include "grown_photo.hpp"
 #include "view_choice.hpp"
 
 namespace drape::texturing {
@@ -64,12 +63,15 @@ std::vector<PixelTriangle> triangles_in_photo(const TriangleMesh& mesh, std::spa
   return triangles;
 }
 
-PhotoMaterial photo_material(const Image8& rgb, const Image8& trusted,
+PhotoMaterial photo_material(const PhotoPixels& photo, const Image8& trusted,
                              const std::vector<PixelTriangle>& triangles, double reach_px) {
-  const PixelBox box = used_box(triangles, rgb.width(), rgb.height(), reach_px);
+  const PixelBox box = used_box(triangles, photo.rgb->width(), photo.rgb->height(), reach_px);
   const Eigen::Vector2d origin(box.left, box.top);
   const Eigen::Vector2d size(box.width(), box.height());
-  PhotoMaterial material{grown_photo(rgb, trusted, box), {}};
+  PhotoMaterial material;
+  if (photo.paint_deep) material.deep_image = deep_grown_photo(photo, trusted, box);
+  material.image =
+      photo.paint_deep ? bytes_from_deep(material.deep_image) : grown_photo(*photo.rgb, trusted, box);
   for (const PixelTriangle& t : triangles) {
     std::array<Eigen::Vector2f, 3> uvs;
     for (std::size_t k = 0; k < 3; ++k) uvs[k] = (t[k] - origin).cwiseQuotient(size).cast<float>();

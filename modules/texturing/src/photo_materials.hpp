@@ -6,6 +6,7 @@
 
 #include "coverage_picture.hpp"
 #include "drape/geometry/textured_mesh.hpp"
+#include "grown_photo.hpp"
 #include "painted_faces.hpp"
 
 namespace drape::texturing {
@@ -21,11 +22,12 @@ void straighten(PaintedFaces& surface, std::vector<int>& chosen, std::span<const
 
 struct PhotoMaterial {
   Image8 image;                                            // what is used of the photo
+  Image16 deep_image;                                      // the same, where it is painted in 16 bits
   std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs;  // per triangle
 };
 /// A copy of the photo cropped to what the triangles use and filters reach, with the object's colours grown
 /// over what is not fully trusted from up to `reach_px` away.
-[[nodiscard]] PhotoMaterial photo_material(const Image8& rgb, const Image8& trusted,
+[[nodiscard]] PhotoMaterial photo_material(const PhotoPixels& photo, const Image8& trusted,
                                            const std::vector<PixelTriangle>& triangles, double reach_px);
 
 }  // namespace drape::texturing

@@ -83,20 +83,21 @@ std::vector<Place> unknown_beside_known(const Image8& known) {
 
 // Pixel by pixel outwards, each the mean of its known neighbours: next to what is known, narrow stripes go on
 // as narrow as they are, where coarser means would mix them.
-void grow_rings(Image8& rgb, Image8& known) {
+template <class Sample>
+void grow_rings(Image<Sample>& rgb, Image8& known) {
   std::vector<Place> ring = unknown_beside_known(known);
-  std::vector<std::array<std::uint8_t, 3>> colors;
+  std::vector<std::array<Sample, 3>> colors;
   for (int i = 0; i < rings && !ring.empty(); ++i) {
     colors.clear();
     for (const Place& p : ring) {
       Eigen::Vector4f sum = Eigen::Vector4f::Zero();
       for_neighbors(p, known, [&](int x, int y, float weight) {
         if (known.at(x, y) == 0) return;
-        sum += weight * Eigen::Vector4f(linear_from_byte(rgb.at(x, y, 0)), linear_from_byte(rgb.at(x, y, 1)),
-                                        linear_from_byte(rgb.at(x, y, 2)), 1);
+        sum += weight * Eigen::Vector4f(linear_from(rgb.at(x, y, 0)), linear_from(rgb.at(x, y, 1)),
+                                        linear_from(rgb.at(x, y, 2)), 1);
       });
       sum /= sum.w();
-      colors.push_back({byte_from_linear(sum[0]), byte_from_linear(sum[1]), byte_from_linear(sum[2])});
+      colors.push_back({stored_as<Sample>(sum[0]), stored_as<Sample>(sum[1]), stored_as<Sample>(sum[2])});
     }
     for (std::size_t k = 0; k < ring.size(); ++k) {
       known.at(ring[k].x, ring[k].y) = 1;
@@ -127,7 +128,8 @@ WeightedPixels pull_pushed(WeightedPixels pixels) {
   return std::move(levels[0]);
 }
 
-void grow_colors(Image8& rgb, const Image8& given) {
+template <class Sample>
+void grow_colors(Image<Sample>& rgb, const Image8& given) {
   const auto unknown = [](std::uint8_t v) { return v == 0; };
   const auto begin = given.data().begin();
   const auto end = given.data().end();
@@ -140,9 +142,8 @@ void grow_colors(Image8& rgb, const Image8& given) {
     for (int y = 2 * row; y < std::min(2 * row + 2, rgb.height()); ++y)
       for (int x = 0; x < rgb.width(); ++x)
         if (known.at(x, y) != 0)
-          coarse.at(x / 2, row) +=
-              Eigen::Vector4f(linear_from_byte(rgb.at(x, y, 0)), linear_from_byte(rgb.at(x, y, 1)),
-                              linear_from_byte(rgb.at(x, y, 2)), 1);
+          coarse.at(x / 2, row) += Eigen::Vector4f(linear_from(rgb.at(x, y, 0)), linear_from(rgb.at(x, y, 1)),
+                                                   linear_from(rgb.at(x, y, 2)), 1);
     for (int x = 0; x < coarse.width; ++x) {
       Eigen::Vector4f& p = coarse.at(x, row);
       if (p.w() > 1) p /= p.w();
@@ -153,9 +154,12 @@ void grow_colors(Image8& rgb, const Image8& given) {
     for (int x = 0; x < rgb.width(); ++x) {
       if (known.at(x, y) != 0) continue;
       const Eigen::Vector4f behind = between(coarse, x, y);
-      for (int c = 0; c < 3; ++c) rgb.at(x, y, c) = byte_from_linear(behind[c] / behind.w());
+      for (int c = 0; c < 3; ++c) rgb.at(x, y, c) = stored_as<Sample>(behind[c] / behind.w());
     }
   });
 }
+
+template void grow_colors(Image8& rgb, const Image8& known);
+template void grow_colors(Image16& rgb, const Image8& known);
 
 }  // namespace drape::texturing

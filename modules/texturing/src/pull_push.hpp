@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "drape/geometry/image.hpp"
+#include "drape/geometry/deep_image.hpp"
 
 namespace drape::texturing {
 
@@ -30,8 +30,11 @@ struct WeightedPixels {
 /// any weight, as it was.
 [[nodiscard]] WeightedPixels pull_pushed(WeightedPixels pixels);
 
-/// The same for a picture in bytes (RGB, sRGB-encoded, of the size of `known`), filled where `known` is 0;
+/// The same for a picture (RGB, sRGB-encoded, of the size of `known`), filled where `known` is 0;
 /// the first pixels beside what is known continue their neighbours.
-void grow_colors(Image8& rgb, const Image8& known);
+template <class Sample>
+void grow_colors(Image<Sample>& rgb, const Image8& known);
+extern template void grow_colors(Image8& rgb, const Image8& known);
+extern template void grow_colors(Image16& rgb, const Image8& known);
 
 }  // namespace drape::texturing

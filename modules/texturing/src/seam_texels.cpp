@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace drape::texturing {
@@ -18,12 +19,13 @@ struct Reading {
   std::array<float, 8> weights;
 };
 
+template <class Sample>
 class Texels {
  public:
-  explicit Texels(std::span<Image8* const> pages) : pages_(pages) {}
+  explicit Texels(std::span<Image<Sample>* const> pages) : pages_(pages) {}
 
   std::uint32_t number_of(std::uint32_t page, int x, int y) {
-    const Image8& image = *pages_[page];
+    const Image<Sample>& image = *pages_[page];
     x = std::clamp(x, 0, image.width() - 1);
     y = std::clamp(y, 0, image.height() - 1);
     const std::uint64_t key = (static_cast<std::uint64_t>(page) << 32U) |
@@ -39,10 +41,11 @@ class Texels {
   [[nodiscard]] const std::vector<Eigen::Vector3f>& colors() const { return colors_; }
 
   void write(const std::vector<Eigen::Vector3f>& changes) {
+    constexpr float most = std::numeric_limits<Sample>::max();
     for (std::size_t i = 0; i < places_.size(); ++i)
       for (int c = 0; c < 3; ++c)
         pages_[places_[i].page]->at(places_[i].x, places_[i].y, c) =
-            static_cast<std::uint8_t>(std::lround(std::clamp(colors_[i][c] + changes[i][c], 0.F, 255.F)));
+            static_cast<Sample>(std::lround(std::clamp(colors_[i][c] + changes[i][c], 0.F, most)));
   }
 
  private:
@@ -51,13 +54,15 @@ class Texels {
     int x;
     int y;
   };
-  std::span<Image8* const> pages_;
+  std::span<Image<Sample>* const> pages_;
   std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
   std::vector<Place> places_;
   std::vector<Eigen::Vector3f> colors_;
 };
 
-void read(const Seam::Side& side, double share, float sign, std::size_t first, Texels& texels, Reading& r) {
+template <class Sample>
+void read(const Seam::Side& side, double share, float sign, std::size_t first, Texels<Sample>& texels,
+          Reading& r) {
   const Eigen::Vector2d p = side.from + share * (side.to - side.from);
   const double px = p.x() - 0.5;
   const double py = p.y() - 0.5;
@@ -127,8 +132,9 @@ Colors solved(const std::vector<Reading>& readings, const Colors& colors) {
 
 }  // namespace
 
-void match_texels_along(std::span<const Seam> seams, std::span<Image8* const> pages) {
-  Texels texels(pages);
+template <class Sample>
+void match_texels_along(std::span<const Seam> seams, std::span<Image<Sample>* const> pages) {
+  Texels<Sample> texels(pages);
   std::vector<Reading> readings;
   for (const Seam& seam : seams) {
     double length = 0;
@@ -143,5 +149,8 @@ void match_texels_along(std::span<const Seam> seams, std::span<Image8* const> pa
   }
   if (!readings.empty()) texels.write(solved(readings, texels.colors()));
 }
+
+template void match_texels_along(std::span<const Seam> seams, std::span<Image8* const> pages);
+template void match_texels_along(std::span<const Seam> seams, std::span<Image16* const> pages);
 
 }  // namespace drape::texturing

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "drape/geometry/image.hpp"
+#include "drape/geometry/deep_image.hpp"
 
 namespace drape::texturing {
 
@@ -26,6 +26,9 @@ struct Seam {
 /// both sides show the same there: charts lie on different grids of texels, whose interpolation differs even
 /// where their photos agree (Iwanicki, "Lighting technology of The Last of Us", SIGGRAPH talks 2013, solves
 /// light maps so). Each page: RGB.
-void match_texels_along(std::span<const Seam> seams, std::span<Image8* const> pages);
+template <class Sample>
+void match_texels_along(std::span<const Seam> seams, std::span<Image<Sample>* const> pages);
+extern template void match_texels_along(std::span<const Seam> seams, std::span<Image8* const> pages);
+extern template void match_texels_along(std::span<const Seam> seams, std::span<Image16* const> pages);
 
 }  // namespace drape::texturing

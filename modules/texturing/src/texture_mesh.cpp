@@ -39,6 +39,10 @@ void check_view(const TextureView& view) {
   if (rgb.width() != view.camera.width || rgb.height() != view.camera.height)
     throw input_error("photo {}: is {} x {} pixels, but its camera is for {} x {}", view.name, rgb.width(),
                       rgb.height(), view.camera.width, view.camera.height);
+  if (const Image16* deep = view.deep_rgb; deep != nullptr && !deep->empty())
+    if (deep->width() != rgb.width() || deep->height() != rgb.height() || deep->channels() != 3)
+      throw input_error("photo {}: has {} x {} pixels of 16 bits and {} x {} of 8", view.name, deep->width(),
+                        deep->height(), rgb.width(), rgb.height());
   const Image8& stencil = view.stencil;
   if (!stencil.empty() &&
       (stencil.width() != rgb.width() || stencil.height() != rgb.height() || stencil.channels() != 1))
@@ -86,7 +90,7 @@ struct Painting {
   double ribbon_reach = 0;          // painted surface goes on so far, in its own colours; 0: it does not
   std::vector<VertexBlend> blends;  // of an atlas
   std::vector<VertexGains> gains;
-  std::vector<const Image8*> photos;   // of the sights
+  std::vector<PhotoPixels> photos;     // of the sights
   std::vector<const Image8*> trusted;  // how far their pixels are
 };
 
@@ -117,13 +121,14 @@ Painting painting_of(const TriangleMesh& simplified, const TriangleMesh& full,
   p.atlas =
       options.mode == TextureMode::atlas || (options.mode == TextureMode::automatic && sights.size() > 1);
   for (std::size_t i = 0; i < sights.size(); ++i) {
-    p.photos.push_back(&views[p.sights.views[i]].rgb);
+    const TextureView& view = views[p.sights.views[i]];
+    p.photos.push_back({&view.rgb, view.deep_rgb, options.color_bits == ColorBits::sixteen});
     p.trusted.push_back(&sights[i].trusted());
   }
   progress.update(0.9, "reading the photos' colours");
   p.colors.resize(sights.size());
   parallel_for(sights.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) p.colors[i] = PhotoColors(*p.photos[i], *p.trusted[i]);
+    for (std::size_t i = begin; i < end; ++i) p.colors[i] = PhotoColors(p.photos[i], *p.trusted[i]);
   });
   p.exposures.assign(sights.size(), Eigen::Vector3f::Zero());
   if (sights.size() > 1) {
@@ -204,7 +209,7 @@ void add_photo_materials(const Painting& p, const FaceLists& faces_of, std::span
     const std::size_t view = p.sights.views[s];
     const PhotoSight& sight = p.sights.sights[s];
     PhotoMaterial painted = photo_material(
-        *p.photos[s], *p.trusted[s], triangles_in_photo(model.mesh, faces_of[s], sight), options.fill_px);
+        p.photos[s], *p.trusted[s], triangles_in_photo(model.mesh, faces_of[s], sight), options.fill_px);
     result.views[view].material = static_cast<int>(model.materials.size());
     for (std::size_t i = 0; i < faces_of[s].size(); ++i) {
       model.face_materials[faces_of[s][i]] = static_cast<std::uint32_t>(model.materials.size());
@@ -213,14 +218,21 @@ void add_photo_materials(const Painting& p, const FaceLists& faces_of, std::span
     Material material;
     material.name = material_name(views[view].name, names);
     material.image = std::move(painted.image);
+    material.deep_image = std::move(painted.deep_image);
     model.materials.push_back(std::move(material));
   }
 }
 
 void add_atlas(const Painting& p, const TextureOptions& options, std::set<std::string>& names,
                const Progress& progress, TextureResult& result) {
-  const AtlasPaint paint{p.surface,       p.chosen, p.blends,           p.gains,
-                         p.sights.sights, p.colors, options.level_seams};
+  const AtlasPaint paint{p.surface,
+                         p.chosen,
+                         p.blends,
+                         p.gains,
+                         p.sights.sights,
+                         p.colors,
+                         options.color_bits == ColorBits::sixteen,
+                         options.level_seams};
   Atlas atlas = painted_atlas(paint, options.atlas_size_px, padding_px, progress);
   result.texels_per_pixel = atlas.texels_per_pixel;
   result.atlas_used_percent = atlas.used_percent;
@@ -230,6 +242,7 @@ void add_atlas(const Painting& p, const TextureOptions& options, std::set<std::s
     Material material;
     material.name = material_name(fmt::format("atlas_{:03}_color", i), names);
     material.image = std::move(atlas.pages[i].color);
+    material.deep_image = std::move(atlas.pages[i].deep_color);
     result.model.materials.push_back(std::move(material));
     result.atlas_coverage.push_back(std::move(atlas.pages[i].coverage));
   }
@@ -334,9 +347,10 @@ void add_albedo(const TriangleMesh& full, std::span<const TextureView> views, co
   const std::vector<PhotoSight>& sights = p.sights.sights;
   const Delighting delit = delit_photos(full, sights, p.photos, progress.part(0, 0.8));
   for (std::size_t i = 0; i < sights.size(); ++i) {
-    p.photos[i] = &delit.photos[i].rgb;
+    p.photos[i].rgb = &delit.photos[i].rgb;
+    p.photos[i].deep = &delit.photos[i].deep_rgb;
     p.trusted[i] = &delit.photos[i].trusted;
-    p.colors[i] = PhotoColors(*p.photos[i], *p.trusted[i]);
+    p.colors[i] = PhotoColors(p.photos[i], *p.trusted[i]);
     p.exposures[i].setZero();
     result.lamps += delit.lights[i].lamps.size();
   }

@@ -166,6 +166,35 @@ TEST(ColorProfile, InAPng) {
     EXPECT_EQ(png_photo_with(image, test::png_chunk("iCCP", bad)).rgb, image);
 }
 
+TEST(ColorProfile, SixteenBitsAreConvertedInFull) {
+  // So narrow a range of greys that bytes have three of them.
+  test::TiffBuilder tiff(false);
+  constexpr int width = 200;
+  std::string samples;
+  for (int x = 0; x < width; ++x)
+    for (int c = 0; c < 3; ++c) samples += raw(static_cast<std::uint16_t>(20000 + 3 * x), false);
+  tiff.add_long(256, width);
+  tiff.add_long(257, 1);
+  tiff.add_shorts(258, {16, 16, 16});
+  tiff.add_short(259, 1);
+  tiff.add_short(262, 2);
+  tiff.add_short(277, 3);
+  tiff.add_long(278, 1);
+  tiff.add_undefined(34675, icc_profile(srgb_primaries(), gamma_curve(1.8)));
+  tiff.add_pixels(samples);
+  const test::ScratchFolder folder;
+  write_file(folder / "x.tif", tiff.bytes());
+  const io::Photo photo = io::read_photo(folder / "x.tif", true);
+  ASSERT_EQ(photo.deep_rgb.width(), width);
+  for (int x = 0; x < width; ++x) {
+    const double truth = 65535 * encoded(std::pow((20000 + 3 * x) / 65535.0, 1.80078125));
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(photo.deep_rgb.at(x, 0, c), truth, 3) << x;  // primaries have five digits
+      EXPECT_NEAR(photo.rgb.at(x, 0, c), truth / 257, 0.51);
+    }
+  }
+}
+
 TEST(ColorProfile, DamagedProfilesNeverHurt) {
   const Image8 image(2, 2, 3, 100);
   const std::string good = icc_profile(display_p3_primaries(), gamma_curve(2.2));

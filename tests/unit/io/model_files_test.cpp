@@ -240,6 +240,26 @@ TEST(Obj, ReadsBackWithPicturesBesideIt) {
   EXPECT_NEAR(v, 1 - m.corner_uvs[first][0].y(), 1e-7);
 }
 
+TEST(Obj, PicturesOfSixteenBitsAreTiffs) {
+  const ScratchFolder folder;
+  TexturedMesh m = model();
+  Image16 deep = deep_from_bytes(m.materials[0].image);
+  for (std::size_t i = 0; i < deep.data().size(); ++i)  // what bytes do not hold
+    deep.data()[i] = static_cast<std::uint16_t>(std::min<std::size_t>(65535, deep.data()[i] + i % 97));
+  m.materials[0].deep_image = deep;
+  m.materials[0].image = bytes_from_deep(deep);
+  const auto written = io::write_obj(folder / "m.obj", m);
+  ASSERT_EQ(written.size(), 4U);
+  EXPECT_EQ(written[2].filename(), "m_a.tif");
+  EXPECT_EQ(written[3].filename(), "m_b_2.png");
+  EXPECT_NE(read_file(written[1]).find("map_Kd m_a.tif\n"), std::string::npos);
+  io::write_textured_ply(folder / "m.ply", m, {"m_a.tif", "m_b_2.png", ""});
+  const TexturedMesh back = io::read_textured_ply(folder / "m.ply", {});
+  EXPECT_EQ(back.materials[0].deep_image, deep);
+  EXPECT_EQ(back.materials[0].image, m.materials[0].image);
+  EXPECT_TRUE(back.materials[1].deep_image.empty());
+}
+
 TEST(TexturedPly, ReadsBack) {
   const ScratchFolder folder;
   TexturedMesh m = model();

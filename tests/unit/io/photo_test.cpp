@@ -43,6 +43,29 @@ TEST(Photo, PngReadsBackExactly) {
   }
 }
 
+Image16 deep_gradient(int width, int height) {
+  Image16 image(width, height, 3);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y, c) = static_cast<std::uint16_t>(257 * x + 8191 * y + 21845 * c);
+  return image;
+}
+
+TEST(Photo, SixteenBitsAreKeptIfAskedFor) {
+  const ScratchFolder folder;
+  const Image16 image = deep_gradient(13, 7);
+  io::write_tiff(folder / "x.tif", image);
+  const io::Photo deep = io::read_photo(folder / "x.tif", true);
+  EXPECT_EQ(deep.deep_rgb, image);
+  EXPECT_EQ(deep.rgb, bytes_from_deep(image));
+  const io::Photo plain = io::read_photo(folder / "x.tif");
+  EXPECT_TRUE(plain.deep_rgb.empty());
+  EXPECT_EQ(plain.rgb, deep.rgb);
+  io::write_image(folder / "x.png", gradient(13, 7, 3));
+  EXPECT_TRUE(io::read_photo(folder / "x.png", true).deep_rgb.empty());
+}
+
 TEST(Photo, StencilValues) {
   const ScratchFolder folder;
   Image8 image(3, 1, 1);

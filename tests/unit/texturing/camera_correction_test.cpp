@@ -138,7 +138,7 @@ TEST(SeamTexels, ShowTheSameOnBothSides) {
   const std::array<Image8, 2> before = pages;
   EXPECT_GT(largest_step(), 6);
   const std::array<Image8*, 2> both = {&pages[0], &pages[1]};
-  match_texels_along(seams, both);
+  match_texels_along<std::uint8_t>(seams, both);
   EXPECT_LT(largest_step(), 3);
   EXPECT_EQ(pages[0].at(35, 2), before[0].at(35, 2));  // away from the seams
   EXPECT_EQ(pages[1].at(2, 2), before[1].at(2, 2));

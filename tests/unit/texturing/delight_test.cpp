@@ -50,8 +50,8 @@ Delit delit(const std::vector<Vector3d>& eyes, const std::vector<Vector3d>& lamp
     views.push_back(d.shots.back().view());
   }
   const Sights sights = sights_of(mesh, mesh, views, {}, {});
-  std::vector<const Image8*> photos;
-  for (const Shot& shot : d.shots) photos.push_back(&shot.photo);
+  std::vector<PhotoPixels> photos;
+  for (const Shot& shot : d.shots) photos.push_back({&shot.photo});
   d.result = delit_photos(mesh, sights.sights, photos, {});
   return d;
 }

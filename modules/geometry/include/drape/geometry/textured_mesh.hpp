@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drape/geometry/image.hpp"
+#include "drape/geometry/deep_image.hpp"
 #include "drape/geometry/triangle_mesh.hpp"
 
 namespace drape {
@@ -20,6 +20,8 @@ struct Material {
   /// Normals in the axes of corner_tangents(), (1 + n) / 2 * 255: x along u, y against v (up in the picture),
   /// z outwards. 3 channels, the texture coordinates of `image`; empty: none.
   Image8 normal_map = {};
+  /// `image` before it was reduced to 8 bits, where the model was painted in more; empty: it was not.
+  Image16 deep_image = {};
 };
 
 /// Texture coordinates inside drape: u to the right, v DOWN from the top left corner, 0..1 over the image.

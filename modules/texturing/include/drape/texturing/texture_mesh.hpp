@@ -10,7 +10,7 @@
 #include "drape/base/options.hpp"
 #include "drape/base/progress.hpp"
 #include "drape/geometry/camera.hpp"
-#include "drape/geometry/image.hpp"
+#include "drape/geometry/deep_image.hpp"
 #include "drape/geometry/textured_mesh.hpp"
 
 namespace drape::texturing {
@@ -28,9 +28,12 @@ enum class Unseen {
   neutral       // flat grey
 };
 
+enum class ColorBits { eight, sixteen };
+
 struct TextureOptions {
   TextureMode mode = TextureMode::automatic;
   int atlas_size_px = 4096;
+  ColorBits color_bits = ColorBits::eight;
   bool level_seams = true;
   double max_incidence_deg = 88;
   double stencil_erode_px = 1.5;
@@ -50,6 +53,9 @@ inline void describe(Binder& b, TextureOptions& o) {
       "auto: atlas for more than one photo");
   b.number("atlas_size_px", o.atlas_size_px, {64, 16384},
            "longest side of an atlas page; what does not fit goes on further pages");
+  b.choice("color_bits", o.color_bits, {{"8", ColorBits::eight}, {"16", ColorBits::sixteen}},
+           "of a texel, for each of red, green and blue; 16: what photos of 16 bits show is kept and blended "
+           "in full, and OBJ and PLY get TIFF pictures; a GLB cannot hold more than 8");
   b.flag("level_seams", o.level_seams,
          "atlas: photos' exposures are matched and their colours levelled across seams");
   b.number("max_incidence_deg", o.max_incidence_deg, {1, 89.9},
@@ -94,6 +100,8 @@ struct TextureView {
   /// How uncertain the camera makes the place of the outline: so much more of the stencil is eroded (6 px at
   /// the most).
   double pose_sigma_px = 0;
+  /// The photo in 16 bits, for ColorBits::sixteen; null or empty: it has none, and `rgb` serves.
+  const Image16* deep_rgb = nullptr;
 };
 
 /// What became of one photo.
