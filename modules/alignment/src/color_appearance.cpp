@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "distinct_poses.hpp"
 #include "surface_light.hpp"
 
 namespace drape::alignment {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double object_px = 128;  // the object's size in the picture that is compared
 constexpr int least_pixels = 100;
+constexpr double most_explained = 0.98;  // beyond, what is left is the photo's noise
 
 // A constant, and the light to the second order.
 using Regressors = Eigen::Matrix<double, 10, 1>;
@@ -112,6 +114,20 @@ double explained_colors(const TriangleMesh& mesh, rendering::Renderer& renderer,
   }
   if (fits[0].count < least_pixels || !(spread > 1e-6 * fits[0].count)) return 0;
   return 1 - left_over / spread;
+}
+
+void rank_by_appearance(std::vector<RefinedPose>& poses,
+                        const std::function<double(const OutlinePose&)>& explained) {
+  for (RefinedPose& pose : poses) pose.agreement.lit = std::min(most_explained, explained(pose.pose));
+  for (RefinedPose& pose : poses) {
+    double most = pose.agreement.lit;
+    for (const RefinedPose& other : poses)
+      if (in_one_place(pose.pose, other.pose)) most = std::max(most, other.agreement.lit);
+    pose.agreement.ranking = pose.agreement.score() * std::sqrt((1 - most) / (1 - pose.agreement.lit));
+  }
+  std::stable_sort(poses.begin(), poses.end(), [](const RefinedPose& a, const RefinedPose& b) {
+    return a.agreement.score() > b.agreement.score();
+  });
 }
 
 }  // namespace drape::alignment

@@ -18,9 +18,13 @@ constexpr double most_magnified = 2;
 constexpr double surroundings = 0.35;   // of the object's size: what its colours are told from
 constexpr double edge_difference = 12;  // Lab step that counts as an edge
 constexpr int edge_reach_px = 3;
-// Of the score: how much is lost without edges, and without places where the colours change.
+// Of the score of a coarse pose: how much is lost without edges, and without places where the colours change.
 constexpr double edge_share = 0.5;
 constexpr double inlier_share = 0.3;
+// Of the score of a refined one: powers. Other things of one colour are parted from the rest as well as the
+// object is, but only the object's own outline follows the edges all round (simulated photos with clutter).
+constexpr double edge_power = 2;
+constexpr double inlier_power = 3;
 // Radii of gyration, in half sides of the box (of a square of its diagonal): of a disc that nearly fills it
 // .7, of one that fills 60 % .42.
 constexpr double radii_in_box[] = {0.38, 0.45, 0.535, 0.635, 0.75};
@@ -91,6 +95,22 @@ std::int64_t count_in(const BitImage& image, const PixelRegion& region) {
       count += std::popcount(word);
     }
   return count;
+}
+
+// Of the outline, in pixels, that the window's border stands for.
+double cut_length(const BitImage& stencil) {
+  double cut = 0;
+  for (int x = 0; x < stencil.width(); ++x)
+    cut += (stencil.at(x, 0) ? 1 : 0) + (stencil.at(x, stencil.height() - 1) ? 1 : 0);
+  for (int y = 0; y < stencil.height(); ++y)
+    cut += (stencil.at(0, y) ? 1 : 0) + (stencil.at(stencil.width() - 1, y) ? 1 : 0);
+  return cut;
+}
+
+double outline_weight(const Agreement& fit, bool refined) {
+  if (refined) return std::pow(fit.rim_inliers, edge_power) * std::pow(fit.image_inliers, inlier_power);
+  return (1 - edge_share + edge_share * fit.rim_inliers) *
+         (1 - inlier_share + inlier_share * fit.image_inliers);
 }
 
 }  // namespace
@@ -241,8 +261,9 @@ Agreement ColorEvidence::match(const OutlineDrawing& drawing, int level_index, d
   agreement.rim_inliers = total > 0 ? on_edge / total : 0;
   agreement.image_inliers = total > 0 ? inlier / total : 0;
   agreement.rms_px = inlier > 0 ? std::sqrt(squares / inlier) : 0;
-  agreement.ranking = agreement.overlap * (1 - edge_share + edge_share * agreement.rim_inliers) *
-                      (1 - inlier_share + inlier_share * agreement.image_inliers);
+  // Of what the window cuts off nothing is seen.
+  const double seen = total > 0 ? total / (total + cut_length(drawing.stencil())) : 0;
+  agreement.ranking = agreement.overlap * seen * outline_weight(agreement, level_index > 0);
   return agreement;
 }
 
@@ -257,11 +278,17 @@ SearchPlan ColorEvidence::plan() const {
   plan.kept_for_middle = 12;
   plan.kept_for_full = 6;
   plan.glance_margin = plan.coarse_margin = plan.middle_margin = 1;
-  if (levels_.front().box || levels_.front().click) return plan;
-  // Anywhere in the photo other things part the colours as well as the object does while its pose is coarse:
-  // each place keeps its best poses until they are refined.
-  plan.most_frames = 400;
+  if (levels_.front().box) return plan;
+  // Parts of the object, and anywhere in the photo other things, part the colours as well as the object does
+  // while its pose is coarse: each place keeps its best poses until they are refined.
+  plan.places = 6;
+  plan.glanced_in_a_place = 6;
+  plan.middle_in_a_place = 3;
+  plan.finalists_in_a_place = 2;
+  if (levels_.front().click) return plan;
+  plan.most_frames = 300;
   plan.candidates = 400;
+  plan.places = 16;
   plan.most_in_a_place = 8;
   plan.kept_after_glance = plan.kept_with_effort = 100;
   plan.kept_for_middle = 32;

@@ -9,7 +9,7 @@ namespace drape::alignment {
 namespace {
 
 constexpr int table_size = 4096;
-constexpr int most_colors = 32;
+constexpr std::size_t most_colors = 32;
 
 // k ln k.
 const std::array<float, table_size + 1>& entropy_table() {
@@ -33,25 +33,23 @@ double x_log_x(double x) {
 
 // Samples of each colour inside the view turned by every other roll, by the area that they stand for.
 DRAPE_FAST_POPCOUNT
-void count_rolls(const std::vector<std::vector<std::uint64_t>>& rings, const PolarBits& view,
-                 std::span<std::array<int, most_colors>, polar_angles / 2> counts) {
-  const std::size_t colors = rings.front().size();
+void count_rolls(std::span<const std::vector<ColorRolls::ColorBits>, polar_rings> rings,
+                 const PolarBits& view, std::span<std::array<int, most_colors>, polar_angles / 2> counts) {
   for (auto& count : counts) count.fill(0);
   for (std::size_t i = 0; i < polar_rings; ++i) {
     if (view[i] == 0) continue;
-    const std::uint64_t* words = rings[i].data();
     const int weight = 2 * static_cast<int>(i) + 1;
     if (view[i] == ~std::uint64_t{0}) {
-      for (std::size_t c = 0; c < colors; ++c) {
-        const int all = weight * __builtin_popcountll(words[c]);
-        for (auto& count : counts) count[c] += all;
+      for (const ColorRolls::ColorBits& bits : rings[i]) {
+        const int all = weight * __builtin_popcountll(bits.word);
+        for (auto& count : counts) count[bits.color] += all;
       }
       continue;
     }
     for (std::size_t roll = 0; roll < counts.size(); ++roll) {
       const std::uint64_t turned = std::rotl(view[i], 2 * static_cast<int>(roll));
-      for (std::size_t c = 0; c < colors; ++c)
-        counts[roll][c] += weight * __builtin_popcountll(turned & words[c]);
+      for (const ColorRolls::ColorBits& bits : rings[i])
+        counts[roll][bits.color] += weight * __builtin_popcountll(turned & bits.word);
     }
   }
 }
@@ -96,27 +94,29 @@ double uncertainty_coefficient(std::span<const double> inside, std::span<const d
 
 ColorRolls::ColorRolls(const ColorLevel& level, const PolarFrame& frame, const ColorRegion& region)
     : region_(region), frame_(frame) {
-  const std::size_t colors = level.labels.size();
-  rings_.assign(polar_rings, std::vector<std::uint64_t>(colors, 0));
+  std::array<std::array<std::uint64_t, most_colors>, polar_rings> words{};
+  if (level.labels.size() > most_colors) return;
   visit_polar(frame, [&](std::size_t ring, std::size_t angle, double x, double y) {
     const int px = static_cast<int>(std::floor(x));
     const int py = static_cast<int>(std::floor(y));
     if (!level.label_at.contains(px, py)) return;
     const std::uint8_t color = level.label_at.at(px, py);
-    if (color != ColorLevel::no_label) rings_[ring][color] |= std::uint64_t{1} << angle;
+    if (color != ColorLevel::no_label) words[ring][color] |= std::uint64_t{1} << angle;
   });
-  all_.assign(colors, 0);
-  if (region.pixels.empty()) {
-    for (std::size_t c = 0; c < colors; ++c)
-      for (std::size_t i = 0; i < polar_rings; ++i)
-        all_[c] += static_cast<float>((2 * i + 1) * static_cast<std::size_t>(std::popcount(rings_[i][c])));
-  } else {
-    const double step = polar_reach / polar_rings * frame.radius;
-    const double pixels_per_count = step * step * std::numbers::pi / polar_angles;
-    for (std::size_t c = 0; c < colors; ++c)
-      all_[c] = static_cast<float>(region.pixels[c] / pixels_per_count);
+  const double step = polar_reach / polar_rings * frame.radius;
+  const double pixels_per_count = step * step * std::numbers::pi / polar_angles;
+  for (std::size_t c = 0; c < level.labels.size(); ++c) {
+    float seen = 0;
+    for (std::size_t i = 0; i < polar_rings; ++i) {
+      if (words[i][c] == 0) continue;
+      seen += static_cast<float>((2 * i + 1) * static_cast<std::size_t>(std::popcount(words[i][c])));
+      rings_[i].push_back({words[i][c], all_.size()});
+    }
+    const float count =
+        region.pixels.empty() ? seen : static_cast<float>(region.pixels[c] / pixels_per_count);
+    total_ += count;
+    if (seen > 0) all_.push_back(count);  // what no ring shows tells nothing
   }
-  for (const float count : all_) total_ += count;
   steps_per_count_ = total_ > 0 ? static_cast<float>(table_size) / total_ : 0;
   for (float& count : all_) {
     count *= steps_per_count_;
@@ -156,7 +156,7 @@ float ColorRolls::fit_of(std::span<const float, polar_angles> reach, int roll) c
 
 void ColorRolls::score(const PolarBits& view, std::span<float, polar_angles> scores) const {
   std::fill(scores.begin(), scores.end(), 0.F);
-  if (all_.size() > most_colors || !(total_ > 0)) return;
+  if (!(total_ > 0)) return;
   if (click_ring_ >= polar_rings) return;
   std::array<std::array<int, most_colors>, polar_angles / 2> counts;
   count_rolls(rings_, view, counts);

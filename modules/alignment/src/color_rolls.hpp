@@ -1,8 +1,11 @@
 // How well a view of the mesh parts the photo's colours, for all of its rolls at once.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "color_level.hpp"
@@ -32,14 +35,20 @@ class ColorRolls final : public Evidence::RollScores {
   ColorRolls(const ColorLevel& level, const PolarFrame& frame, const ColorRegion& region);
   void score(const PolarBits& view, std::span<float, polar_angles> scores) const override;
 
+  /// Where a ring shows a colour, which is one of those that some ring shows.
+  struct ColorBits {
+    std::uint64_t word = 0;
+    std::size_t color = 0;
+  };
+
  private:
   [[nodiscard]] float score_of(std::span<const int> inside) const;
   [[nodiscard]] float fit_of(std::span<const float, polar_angles> reach, int roll) const;
 
   const ColorRegion& region_;
   PolarFrame frame_;
-  std::vector<std::vector<std::uint64_t>> rings_;  // per ring, a word of each colour
-  std::vector<float> all_;                         // of each colour, in steps of the logarithms' table
+  std::array<std::vector<ColorBits>, polar_rings> rings_;  // no empty words
+  std::vector<float> all_;  // of each colour, in steps of the logarithms' table
   float steps_per_count_ = 1;
   float constant_ = 0;  // the parts of the score that no view changes
   float total_ = 0;

@@ -59,6 +59,13 @@ struct SearchPlan {
   double glance_reach_px = 16;
   std::size_t kept_after_glance = 16;
   std::size_t kept_with_effort = 32;
+  // So many of the places that the first glance finds are searched once more, each by itself.
+  std::size_t places = 0;
+  std::size_t candidates_of_a_size = 10;  // there
+  // What is kept of one place and size, when there are other things that part the photo as well.
+  std::size_t glanced_in_a_place = 1000;
+  std::size_t middle_in_a_place = 1000;
+  std::size_t finalists_in_a_place = 1000;
   std::size_t kept_for_middle = 8;
   std::size_t kept_for_full = 4;
   // What is worse than the best by more than this is no rival of it at the next level either.

@@ -5,211 +5,34 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 
-#include "chamfer_search.hpp"
+#include "coarse_search.hpp"
 #include "distinct_poses.hpp"
-#include "drape/base/parallel.hpp"
-#include "view_atlas.hpp"
 
 namespace drape::alignment {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
-constexpr int atlas_views = 400;
-constexpr int outline_views = 1000;
-constexpr std::size_t glanced_views = 10;  // one of so many tells whether a frame is worth all of them
-constexpr double usual_perspective = 0.2;
-constexpr double distinct_rad = 10 * radians;
-constexpr double distinct_match_rad = 6 * radians;  // of candidates of the coarse search
-constexpr std::size_t chamfer_matches_kept = 2500;
 constexpr double principal_point_gain = 200;  // of chi squared
-
-struct Candidate {
-  float score = 0;
-  std::size_t frame = 0;
-  std::size_t view = 0;
-  int roll = 0;
-};
-
-Eigen::Matrix3d roll_matrix(double angle) {
-  return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-}
-
-// The rolls that score better than those beside them. A disc scores alike at all of them: then one stands for
-// all.
-std::vector<int> best_rolls(const std::array<float, polar_angles>& scores) {
-  std::vector<int> rolls;
-  for (int r = 0; r < polar_angles; ++r) {
-    const float here = scores[static_cast<std::size_t>(r)];
-    const float before = scores[static_cast<std::size_t>((r + polar_angles - 1) % polar_angles)];
-    const float after = scores[static_cast<std::size_t>((r + 1) % polar_angles)];
-    if (here > before && here >= after) rolls.push_back(r);
-  }
-  if (rolls.empty()) rolls.push_back(0);
-  return rolls;
-}
-
-class CoarseSearch {
- public:
-  CoarseSearch(const MeshLevels& meshes, const Evidence& evidence, const SearchSettings& settings)
-      : mesh_(meshes.coarse), evidence_(evidence), settings_(settings) {
-    const PolarFrame frame = evidence.frames(0).front();
-    perspective_ = expected_perspective(frame);
-    views_ = view_atlas(mesh_, atlas_views, perspective_);
-  }
-
-  /// Distinct starting poses, best first. With effort 1 the evidence is taken to be wrong in part.
-  [[nodiscard]] std::vector<OutlinePose> starts(int effort, std::size_t most) const {
-    const bool outline = effort > 0 && evidence_.outline() != nullptr;
-    return distinct(outline ? by_outline() : by_frames(effort), outline ? distinct_match_rad : distinct_rad,
-                    most);
-  }
-
-  [[nodiscard]] std::size_t listed(int effort) const {
-    return evidence_.frames(effort).size() * views_.size() * polar_angles;
-  }
-
- private:
-  [[nodiscard]] double expected_perspective(const PolarFrame& frame) const {
-    if (settings_.lens.orthographic) return 0;
-    const std::optional<double> focal =
-        settings_.lens.fixed_focal_px ? settings_.lens.fixed_focal_px : settings_.lens.hinted_focal_px;
-    if (!focal) return usual_perspective;
-    // A body's radius of gyration in a picture is about half its bounding sphere's.
-    return std::clamp(2 * frame.radius / evidence_.window(0).px_per_photo_px / *focal, 0.0, 0.6);
-  }
-  [[nodiscard]] std::vector<OutlinePose> by_frames(int effort) const;
-  [[nodiscard]] std::vector<OutlinePose> by_outline() const;
-  [[nodiscard]] std::vector<OutlinePose> distinct(const std::vector<OutlinePose>& sorted, double apart_rad,
-                                                  std::size_t most) const;
-  [[nodiscard]] OutlinePose pose_of(const Candidate& candidate, const PolarFrame& frame) const;
-  [[nodiscard]] OutlinePose pose_of(const AtlasView& view, double angle, double scale,
-                                    const Eigen::Vector2d& shift, const Eigen::Vector2d& center) const;
-  [[nodiscard]] std::vector<PolarFrame> promising(std::vector<PolarFrame> frames) const;
-
-  const OutlineMesh& mesh_;
-  const Evidence& evidence_;
-  const SearchSettings& settings_;
-  double perspective_ = 0;
-  std::vector<AtlasView> views_;
-};
-
-// The view was drawn in the middle of the picture: the same look elsewhere is that of a body turned along
-// with the ray that it lies on. `scale`, `shift` and the body's `center` are in photo pixels.
-OutlinePose CoarseSearch::pose_of(const AtlasView& view, double angle, double scale,
-                                  const Eigen::Vector2d& shift, const Eigen::Vector2d& center) const {
-  OutlinePose pose;
-  pose.scale = scale;
-  pose.shift = shift;
-  pose.rotation = roll_matrix(angle) * view.rotation;
-  if (settings_.lens.orthographic) return pose;
-  pose.perspective = settings_.lens.fixed_focal_px ? pose.scale / *settings_.lens.fixed_focal_px
-                                                   : perspective_prior(settings_.lens, pose.scale).mean;
-  pose.perspective = std::min(pose.perspective, 0.7);
-  const double focal = pose.scale / std::max(pose.perspective, 1e-6);
-  const Eigen::Vector3d ray(center.x(), center.y(), focal);
-  pose.rotation =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray).toRotationMatrix() * pose.rotation;
-  return pose;
-}
-
-OutlinePose CoarseSearch::pose_of(const Candidate& candidate, const PolarFrame& frame) const {
-  const AtlasView& view = views_[candidate.view];
-  const Window& window = evidence_.window(0);
-  const double angle = 2 * std::numbers::pi * candidate.roll / polar_angles;
-  const double scale = frame.radius / view.frame.radius / window.px_per_photo_px;
-  const Eigen::Vector2d center = window.to_photo(frame.center);
-  return pose_of(view, angle, scale, center - scale * (Eigen::Rotation2Dd(angle) * view.frame.center),
-                 center);
-}
-
-// Where some of the views fit best, in the order given.
-std::vector<PolarFrame> CoarseSearch::promising(std::vector<PolarFrame> frames) const {
-  const std::size_t most = evidence_.plan().most_frames;
-  if (frames.size() <= most) return frames;
-  std::vector<float> best(frames.size(), 0);
-  parallel_for(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const std::unique_ptr<Evidence::RollScores> rolls = evidence_.rolls(frames[f]);
-      for (std::size_t v = f % glanced_views; v < views_.size(); v += glanced_views) {
-        std::array<float, polar_angles> scores{};
-        rolls->score(views_[v].bits, scores);
-        best[f] = std::max(best[f], *std::max_element(scores.begin(), scores.end()));
-      }
-    }
-  });
-  std::vector<std::size_t> order(frames.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return best[a] > best[b]; });
-  order.resize(most);
-  std::sort(order.begin(), order.end());
-  std::vector<PolarFrame> kept;
-  for (const std::size_t f : order) kept.push_back(frames[f]);
-  return kept;
-}
-
-std::vector<OutlinePose> CoarseSearch::by_frames(int effort) const {
-  const std::vector<PolarFrame> frames = promising(evidence_.frames(effort));
-  std::vector<std::vector<Candidate>> found(frames.size() * views_.size());
-  parallel_for(frames.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const std::unique_ptr<Evidence::RollScores> rolls = evidence_.rolls(frames[f]);
-      for (std::size_t v = 0; v < views_.size(); ++v) {
-        std::array<float, polar_angles> scores{};
-        rolls->score(views_[v].bits, scores);
-        for (const int r : best_rolls(scores))
-          found[f * views_.size() + v].push_back({scores[static_cast<std::size_t>(r)], f, v, r});
-      }
-    }
-  });
-  std::vector<Candidate> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-  std::vector<OutlinePose> poses;
-  for (const Candidate& candidate : all) poses.push_back(pose_of(candidate, frames[candidate.frame]));
-  return poses;
-}
-
-std::vector<OutlinePose> CoarseSearch::by_outline() const {
-  const Window& window = evidence_.window(0);
-  const std::vector<AtlasView> views = view_atlas(mesh_, outline_views, perspective_);
-  std::vector<OutlinePose> poses;
-  for (const ChamferMatch& match :
-       chamfer_matches(mesh_, views, *evidence_.outline(), chamfer_matches_kept)) {
-    const Eigen::Vector2d shift = window.to_photo(match.shift);
-    poses.push_back(
-        pose_of(views[match.view], match.angle, match.scale / window.px_per_photo_px, shift, shift));
-  }
-  return poses;
-}
-
-std::vector<OutlinePose> CoarseSearch::distinct(const std::vector<OutlinePose>& sorted, double apart_rad,
-                                                std::size_t most) const {
-  const SearchPlan plan = evidence_.plan();
-  std::vector<OutlinePose> starts;
-  for (const OutlinePose& pose : sorted) {
-    if (starts.size() == most) break;
-    if (settings_.allowed && !settings_.allowed(pose)) continue;
-    const bool seen = std::any_of(starts.begin(), starts.end(), [&](const OutlinePose& better) {
-      return angle_between(better.rotation, pose.rotation) < apart_rad &&
-             (better.shift - pose.shift).norm() < plan.distinct_place * pose.scale &&
-             std::abs(std::log(better.scale / pose.scale)) < plan.distinct_size;
-    });
-    if (seen) continue;
-    const auto crowd = static_cast<std::size_t>(std::count_if(
-        starts.begin(), starts.end(), [&](const OutlinePose& better) { return in_one_place(better, pose); }));
-    if (crowd < plan.most_in_a_place) starts.push_back(pose);
-  }
-  return starts;
-}
 
 void drop_beaten(std::vector<RefinedPose>& sorted, double margin) {
   std::erase_if(sorted, [best = sorted.empty() ? 0.0 : sorted.front().agreement.score(),
                          margin](const RefinedPose& pose) { return pose.agreement.score() < best - margin; });
+}
+
+// The best distinct ones, at most so many, and so many of one place.
+std::vector<RefinedPose> best_of(std::vector<RefinedPose> poses, std::size_t most,
+                                 std::size_t most_in_a_place) {
+  if (most_in_a_place >= poses.size()) return distinct_poses(std::move(poses), most);
+  const std::size_t count = poses.size();
+  std::vector<RefinedPose> kept;
+  for (RefinedPose& pose : distinct_poses(std::move(poses), count)) {
+    if (kept.size() == most) break;
+    const auto crowd = std::count_if(kept.begin(), kept.end(), [&](const RefinedPose& better) {
+      return in_one_place(better.pose, pose.pose);
+    });
+    if (static_cast<std::size_t>(crowd) < most_in_a_place) kept.push_back(std::move(pose));
+  }
+  return kept;
 }
 
 // Under a long lens a body with a plane of symmetry of normal n looks the same from D R (I - 2 n n^T), D =
@@ -271,73 +94,128 @@ RefinedPose with_free_principal_point(const OutlineMesh& mesh, const RefinedPose
   return better ? free : fixed;
 }
 
+class PoseSearch {
+ public:
+  PoseSearch(const MeshLevels& meshes, const Evidence& evidence, const SearchSettings& settings,
+             const Progress& progress)
+      : meshes_(meshes),
+        evidence_(evidence),
+        settings_(settings),
+        progress_(progress),
+        plan_(evidence.plan()),
+        last_(evidence.levels() - 1) {}
+
+  [[nodiscard]] PoseSearchResult run() {
+    const auto begin = std::chrono::steady_clock::now();
+    const bool anywhere = settings_.starts.empty();
+    std::vector<RefinedPose> poses =
+        anywhere ? from_all_views() : refined(meshes_.coarse, settings_.starts, coarse_);
+    result_.statistics.coarse_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (anywhere) add_mirror_twins(poses);
+    result_.poses = on_full_mesh(std::move(poses));
+    progress_.update(1, "refining");
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<RefinedPose> refined(const OutlineMesh& mesh,
+                                                 const std::vector<OutlinePose>& starts,
+                                                 const RefinementPlan& how) const {
+    return refine_poses(mesh, starts, evidence_, settings_.lens, how, progress_);
+  }
+  [[nodiscard]] std::vector<RefinedPose> from_all_views();
+  [[nodiscard]] std::vector<RefinedPose> glanced(const CoarseSearch& search);
+  [[nodiscard]] std::vector<RefinedPose> glanced_with_effort(const CoarseSearch& search);
+  void add_mirror_twins(std::vector<RefinedPose>& poses) const;
+  [[nodiscard]] std::vector<RefinedPose> on_full_mesh(std::vector<RefinedPose> poses) const;
+
+  const MeshLevels& meshes_;
+  const Evidence& evidence_;
+  const SearchSettings& settings_;
+  const Progress& progress_;
+  const SearchPlan plan_;
+  const int last_;
+  const RefinementPlan coarse_{0, 12, 8, 2, 1.0, false};
+  PoseSearchResult result_;
+};
+
+std::vector<RefinedPose> PoseSearch::from_all_views() {
+  const CoarseSearch search(meshes_.coarse, evidence_, settings_.lens, settings_.allowed);
+  progress_.update(0.2, "comparing views");
+  std::vector<RefinedPose> poses;
+  for (int effort = 0; effort < 2; ++effort) {
+    const std::vector<RefinedPose> starts = effort == 0 ? glanced(search) : glanced_with_effort(search);
+    result_.statistics.candidates_listed = static_cast<int>(search.listed(effort));
+    progress_.update(effort == 0 ? 0.4 : 0.6, "refining");
+    const std::vector<RefinedPose> settled = refined(meshes_.coarse, poses_of(starts), coarse_);
+    progress_.update(effort == 0 ? 0.5 : 0.7, "refining");
+    poses.insert(poses.end(), settled.begin(), settled.end());
+    poses = distinct_poses(std::move(poses), plan_.kept_with_effort);
+    if (!poses.empty() && poses.front().agreement.explained() > plan_.good_score) break;
+  }
+  return poses;
+}
+
+// What a few steps make of the starting poses, and of more about the places that they lead to.
+std::vector<RefinedPose> PoseSearch::glanced(const CoarseSearch& search) {
+  const RefinementPlan glance{0, 5, plan_.glance_reach_px, 6, 1.5, false};
+  const std::vector<OutlinePose> starts = search.starts(0, plan_.candidates);
+  result_.statistics.candidates_tried += static_cast<int>(starts.size());
+  std::vector<RefinedPose> poses = refined(meshes_.coarse, starts, glance);
+  if (plan_.places > 0) {
+    const std::vector<OutlinePose> more =
+        search.starts_about(poses_of(best_of(poses, plan_.places, 1)), plan_.candidates_of_a_size);
+    result_.statistics.candidates_tried += static_cast<int>(more.size());
+    const std::vector<RefinedPose> closer = refined(meshes_.coarse, more, glance);
+    poses.insert(poses.end(), closer.begin(), closer.end());
+  }
+  poses = best_of(std::move(poses), plan_.kept_after_glance, plan_.glanced_in_a_place);
+  drop_beaten(poses, plan_.glance_margin);
+  return poses;
+}
+
+std::vector<RefinedPose> PoseSearch::glanced_with_effort(const CoarseSearch& search) {
+  const RefinementPlan close_glance{0, 5, 8, 4, 1.5, false, true};
+  const std::vector<OutlinePose> starts = search.starts(1, plan_.candidates_with_effort);
+  result_.statistics.candidates_tried += static_cast<int>(starts.size());
+  return distinct_poses(refined(meshes_.coarse, starts, close_glance), plan_.kept_with_effort);
+}
+
+void PoseSearch::add_mirror_twins(std::vector<RefinedPose>& poses) const {
+  const std::vector<OutlinePose> twins =
+      with_mirror_twins(poses_of(distinct_poses(poses, 2)), principal_axes_of(meshes_.coarse));
+  poses = best_of(std::move(poses), plan_.kept_for_middle, plan_.middle_in_a_place);
+  drop_beaten(poses, plan_.coarse_margin);
+  const std::vector<RefinedPose> more = refined(meshes_.coarse, twins, coarse_);
+  poses.insert(poses.end(), more.begin(), more.end());
+  if (settings_.allowed)
+    std::erase_if(poses, [&](const RefinedPose& r) { return !settings_.allowed(r.pose); });
+}
+
+std::vector<RefinedPose> PoseSearch::on_full_mesh(std::vector<RefinedPose> poses) const {
+  const RefinementPlan middle{std::min(1, last_), 8, 6, 2, 1.0, false};
+  poses = best_of(std::move(poses), plan_.kept_for_middle, plan_.middle_in_a_place);
+  drop_beaten(poses, plan_.coarse_margin);
+  progress_.update(0.75, "refining");
+  poses = best_of(refined(meshes_.middle, poses_of(poses), middle), plan_.kept_for_full,
+                  plan_.finalists_in_a_place);
+  drop_beaten(poses, plan_.middle_margin);
+  progress_.update(0.85, "refining");
+  for (int level = std::min(2, last_); level <= last_; ++level) {
+    const RefinementPlan fine{level, 8, 5, 1.5, 1.0, false};
+    poses = distinct_poses(refined(meshes_.full, poses_of(poses), fine), plan_.kept_for_full);
+  }
+  if (!poses.empty() && !settings_.principal_point_known && !settings_.lens.orthographic)
+    poses.front() = with_free_principal_point(meshes_.full, poses.front(), evidence_, settings_.lens);
+  return poses;
+}
+
 }  // namespace
 
 PoseSearchResult search_poses(const MeshLevels& meshes, const Evidence& evidence,
                               const SearchSettings& settings, const Progress& progress) {
-  const auto begin = std::chrono::steady_clock::now();
-  PoseSearchResult result;
-  const auto refined_all = [&](const OutlineMesh& mesh, const std::vector<OutlinePose>& starts,
-                               const RefinementPlan& how) {
-    return refine_poses(mesh, starts, evidence, settings.lens, how, progress);
-  };
-  const int last = evidence.levels() - 1;
-  const SearchPlan plan = evidence.plan();
-  const RefinementPlan glance{0, 5, plan.glance_reach_px, 6, 1.5, false};
-  const RefinementPlan close_glance{0, 5, 8, 4, 1.5, false, true};
-  const RefinementPlan coarse{0, 12, 8, 2, 1.0, false};
-  const RefinementPlan middle{std::min(1, last), 8, 6, 2, 1.0, false};
-
-  std::vector<RefinedPose> refined;
-  if (!settings.starts.empty()) {
-    refined = refined_all(meshes.coarse, settings.starts, coarse);
-  } else {
-    const CoarseSearch search(meshes, evidence, settings);
-    progress.update(0.2, "comparing views");
-    for (int effort = 0; effort < 2; ++effort) {
-      const std::vector<OutlinePose> starts =
-          search.starts(effort, effort == 0 ? plan.candidates : plan.candidates_with_effort);
-      result.statistics.candidates_listed = static_cast<int>(search.listed(effort));
-      result.statistics.candidates_tried += static_cast<int>(starts.size());
-      std::vector<RefinedPose> glanced =
-          distinct_poses(refined_all(meshes.coarse, starts, effort == 0 ? glance : close_glance),
-                         effort == 0 ? plan.kept_after_glance : plan.kept_with_effort);
-      if (effort == 0) drop_beaten(glanced, plan.glance_margin);
-      progress.update(effort == 0 ? 0.4 : 0.6, "refining");
-      std::vector<RefinedPose> settled = refined_all(meshes.coarse, poses_of(glanced), coarse);
-      progress.update(effort == 0 ? 0.5 : 0.7, "refining");
-      refined.insert(refined.end(), settled.begin(), settled.end());
-      refined = distinct_poses(std::move(refined), plan.kept_with_effort);
-      if (!refined.empty() && refined.front().agreement.explained() > plan.good_score) break;
-    }
-  }
-  result.statistics.coarse_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (settings.starts.empty()) {
-    refined = distinct_poses(std::move(refined), plan.kept_for_middle);
-    drop_beaten(refined, plan.coarse_margin);
-    const std::vector<OutlinePose> twins =
-        with_mirror_twins(poses_of(distinct_poses(refined, 2)), principal_axes_of(meshes.coarse));
-    std::vector<RefinedPose> more = refined_all(meshes.coarse, twins, coarse);
-    refined.insert(refined.end(), more.begin(), more.end());
-    if (settings.allowed)
-      std::erase_if(refined, [&](const RefinedPose& r) { return !settings.allowed(r.pose); });
-  }
-  refined = distinct_poses(std::move(refined), plan.kept_for_middle);
-  drop_beaten(refined, plan.coarse_margin);
-  progress.update(0.75, "refining");
-  refined = distinct_poses(refined_all(meshes.middle, poses_of(refined), middle), plan.kept_for_full);
-  drop_beaten(refined, plan.middle_margin);
-  progress.update(0.85, "refining");
-  for (int level = std::min(2, last); level <= last; ++level) {
-    const RefinementPlan fine{level, 8, 5, 1.5, 1.0, false};
-    refined = distinct_poses(refined_all(meshes.full, poses_of(refined), fine), plan.kept_for_full);
-  }
-  if (!refined.empty() && !settings.principal_point_known && !settings.lens.orthographic)
-    refined.front() = with_free_principal_point(meshes.full, refined.front(), evidence, settings.lens);
-  progress.update(1, "refining");
-  result.poses = std::move(refined);
-  return result;
+  return PoseSearch(meshes, evidence, settings, progress).run();
 }
 
 }  // namespace drape::alignment

@@ -35,7 +35,6 @@ constexpr int middle_faces = 8000;
 constexpr double fits_well = 0.965;          // of an outline: with less there may be a better pose near by
 constexpr double smooth_distance_px = 0.03;  // of a smooth outline, in the mean
 constexpr int least_object_px = 8;
-constexpr double explained_weight = 0.5;  // of the look inside, against the outline's score
 
 MeshLevels mesh_levels(const TriangleMesh& mesh, const UnitSphere& sphere) {
   MeshLevels levels;
@@ -82,23 +81,6 @@ SearchSettings search_settings(const PhotoEvidence& evidence, const AlignOptions
   return settings;
 }
 
-// Colours are ranked by what is inside the outline, too.
-void rank_by_appearance(std::vector<RefinedPose>& poses, const PhotoEvidence& evidence,
-                        const TriangleMesh& mesh, const UnitSphere& sphere, const PhotoPlane& plane,
-                        Camera::Projection projection) {
-  rendering::Renderer renderer(mesh);
-  for (RefinedPose& pose : poses) {
-    const Camera camera = camera_of(pose.pose, sphere, projection, plane.principal_px(),
-                                    evidence.stencil.width(), evidence.stencil.height());
-    Agreement& fit = pose.agreement;
-    fit.lit = explained_colors(mesh, renderer, *evidence.photo, plane, camera);
-    fit.ranking = fit.score() * (1 + explained_weight * fit.lit) / (1 + explained_weight);
-  }
-  std::stable_sort(poses.begin(), poses.end(), [](const RefinedPose& a, const RefinedPose& b) {
-    return a.agreement.score() > b.agreement.score();
-  });
-}
-
 // The poses as cameras, the best first, with what is to be thought of them.
 Alignment judged(const std::vector<RefinedPose>& poses, OutlineFigures figures,
                  const SearchSettings& settings, const PhotoEvidence& evidence, const SoughtMesh& sought,
@@ -111,7 +93,14 @@ Alignment judged(const std::vector<RefinedPose>& poses, OutlineFigures figures,
   alignment.camera.height = evidence.stencil.height();
   std::vector<RefinedPose> ranked = poses;
   const bool by_colors = alignment.evidence != EvidenceKind::stencil;
-  if (by_colors) rank_by_appearance(ranked, evidence, mesh, sphere, plane, options.projection);
+  if (by_colors) {
+    rendering::Renderer renderer(mesh);
+    rank_by_appearance(ranked, [&](const OutlinePose& pose) {
+      return explained_colors(mesh, renderer, *evidence.photo, plane,
+                              camera_of(pose, sphere, options.projection, plane.principal_px(),
+                                        evidence.stencil.width(), evidence.stencil.height()));
+    });
+  }
   PoseJudgement judgement =
       by_colors ? judge_color_poses(ranked, settings.lens) : judge_poses(ranked, settings.lens, figures);
   std::vector<Camera> cameras;
