@@ -1,6 +1,7 @@
 #include "photo_colors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "area_prefilter.hpp"
@@ -26,25 +27,56 @@ PixelBox usable_box(const Image8& trusted) {
           std::min(trusted.height(), box.bottom + margin_px)};
 }
 
-// Linear light between the four pixels round a position, which is kept within the picture.
-template <class Sample>
-Eigen::Vector3f between(const Image<Sample>& rgb, const Eigen::Vector2d& place) {
-  const double px = std::clamp(place.x() - 0.5, 0.0, rgb.width() - 1.0);
-  const double py = std::clamp(place.y() - 0.5, 0.0, rgb.height() - 1.0);
+// Where a position lies between the centres of a picture's pixels, which it is kept within.
+struct Between {
+  int x;
+  int y;
+  float right;  // of pixel (x, y)
+  float below;
+};
+Between between(const Eigen::Vector2d& place, int width, int height) {
+  const double px = std::clamp(place.x() - 0.5, 0.0, width - 1.0);
+  const double py = std::clamp(place.y() - 0.5, 0.0, height - 1.0);
   const int x = static_cast<int>(px);
   const int y = static_cast<int>(py);
-  const int right = std::min(x + 1, rgb.width() - 1);
-  const int below = std::min(y + 1, rgb.height() - 1);
-  const auto fx = static_cast<float>(px - x);
-  const auto fy = static_cast<float>(py - y);
-  Eigen::Vector3f color;
-  for (int c = 0; c < 3; ++c) {
-    const float over = (1 - fx) * linear_from(rgb.at(x, y, c)) + fx * linear_from(rgb.at(right, y, c));
-    const float under =
-        (1 - fx) * linear_from(rgb.at(x, below, c)) + fx * linear_from(rgb.at(right, below, c));
-    color[c] = (1 - fy) * over + fy * under;
+  return {x, y, static_cast<float>(px - x), static_cast<float>(py - y)};
+}
+
+template <class Sample>
+Eigen::Vector3f linear_at(const Image<Sample>& rgb, int x, int y) {
+  x = std::clamp(x, 0, rgb.width() - 1);
+  y = std::clamp(y, 0, rgb.height() - 1);
+  return {linear_from(rgb.at(x, y, 0)), linear_from(rgb.at(x, y, 1)), linear_from(rgb.at(x, y, 2))};
+}
+
+template <class Sample>
+Eigen::Vector3f bilinear(const Image<Sample>& rgb, const Eigen::Vector2d& place) {
+  const auto [x, y, right, below] = between(place, rgb.width(), rgb.height());
+  return (1 - below) * ((1 - right) * linear_at(rgb, x, y) + right * linear_at(rgb, x + 1, y)) +
+         below * ((1 - right) * linear_at(rgb, x, y + 1) + right * linear_at(rgb, x + 1, y + 1));
+}
+
+// Weights of the four pixels round a place `t` beyond the second (Keys, "Cubic convolution interpolation for
+// digital image processing", 1981, with a = -1/2).
+std::array<float, 4> cubic_weights(float t) {
+  const float t2 = t * t;
+  const float t3 = t2 * t;
+  return {(-t3 + 2 * t2 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2, (-3 * t3 + 4 * t2 + t) / 2, (t3 - t2) / 2};
+}
+
+template <class Sample>
+Eigen::Vector3f cubic(const Image<Sample>& rgb, const Eigen::Vector2d& place) {
+  const Between at = between(place, rgb.width(), rgb.height());
+  const std::array<float, 4> across = cubic_weights(at.right);
+  const std::array<float, 4> down = cubic_weights(at.below);
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();
+  for (int j = 0; j < 4; ++j) {
+    Eigen::Vector3f row = Eigen::Vector3f::Zero();
+    for (int i = 0; i < 4; ++i)
+      row += across[static_cast<std::size_t>(i)] * linear_at(rgb, at.x + i - 1, at.y + j - 1);
+    color += down[static_cast<std::size_t>(j)] * row;
   }
-  return color;
+  return color.cwiseMax(0.F).cwiseMin(1.F);
 }
 
 }  // namespace
@@ -59,15 +91,23 @@ PhotoColors::PhotoColors(const PhotoPixels& photo, const Image8& trusted) : box_
   }
 }
 
+Eigen::Vector2d PhotoColors::in_box(const Eigen::Vector2d& pixel) const {
+  return pixel - Eigen::Vector2d(box_.left, box_.top);
+}
+
 Eigen::Vector3f PhotoColors::at(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d place = pixel - Eigen::Vector2d(box_.left, box_.top);
-  return deep_grown_.empty() ? between(grown_, place) : between(deep_grown_, place);
+  return deep_grown_.empty() ? cubic(grown_, in_box(pixel)) : cubic(deep_grown_, in_box(pixel));
+}
+
+// A mean needs no sharper reading.
+Eigen::Vector3f PhotoColors::quickly_at(const Eigen::Vector2d& pixel) const {
+  return deep_grown_.empty() ? bilinear(grown_, in_box(pixel)) : bilinear(deep_grown_, in_box(pixel));
 }
 
 Eigen::Vector3f PhotoColors::smooth_at(const Eigen::Vector2d& pixel) const {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) sum += at(pixel + Eigen::Vector2d(dx, dy));
+    for (int dx = -1; dx <= 1; ++dx) sum += quickly_at(pixel + Eigen::Vector2d(dx, dy));
   return sum / 9;
 }
 
@@ -76,7 +116,7 @@ float PhotoColors::contrast_at(const Eigen::Vector2d& pixel) const {
   Eigen::Array3f squares = Eigen::Array3f::Zero();
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      const Eigen::Array3f log = log_light(at(pixel + Eigen::Vector2d(dx, dy))).array();
+      const Eigen::Array3f log = log_light(quickly_at(pixel + Eigen::Vector2d(dx, dy))).array();
       sum += log;
       squares += log.square();
     }

@@ -13,7 +13,9 @@ class PhotoColors {
   /// Grown within the box of the pixels that may be used and a margin for filters.
   PhotoColors(const PhotoPixels& photo, const Image8& trusted);
 
-  /// Linear light between the four pixels round a position in the photo; beyond the box as on its border.
+  /// Linear light at a position in the photo, by a cubic through the sixteen pixels round it: where charts
+  /// lie on other grids than their photos, it keeps more of fine patterns than straight lines between pixels
+  /// would. Within 0..1; beyond the box as on its border.
   [[nodiscard]] Eigen::Vector3f at(const Eigen::Vector2d& pixel) const;
   /// Mean of the 3 x 3 pixels round it: less noise.
   [[nodiscard]] Eigen::Vector3f smooth_at(const Eigen::Vector2d& pixel) const;
@@ -21,6 +23,9 @@ class PhotoColors {
   [[nodiscard]] float contrast_at(const Eigen::Vector2d& pixel) const;
 
  private:
+  [[nodiscard]] Eigen::Vector2d in_box(const Eigen::Vector2d& pixel) const;
+  [[nodiscard]] Eigen::Vector3f quickly_at(const Eigen::Vector2d& pixel) const;
+
   PixelBox box_{};
   Image8 grown_;
   Image16 deep_grown_;  // instead of it, where the photo is painted in 16 bits

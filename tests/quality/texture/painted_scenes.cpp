@@ -72,14 +72,13 @@ Camera camera_at(const Object& object, double azimuth_deg, double elevation_deg)
   return simulation::camera_round(object.mesh, width, height, field_of_view_deg, azimuth_deg, elevation_deg);
 }
 
-Camera slightly_off(const Object& object, const Camera& camera, std::uint64_t seed) {
-  constexpr double turn_deg = 0.4;
-  constexpr double focal_percent = 1;
+Camera slightly_off(const Object& object, const Camera& camera, const CameraError& error,
+                    std::uint64_t seed) {
   Rng rng(seed);
   const Eigen::Vector3d middle = camera.camera_from_world * bounding_box(object.mesh.vertices).center();
   const Eigen::Vector3d axis = Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
-  const double zoom = 1 + focal_percent / 100 * rng.normal();
-  const Eigen::AngleAxisd turn(turn_deg * std::numbers::pi / 180, axis);
+  const double zoom = 1 + error.focal_percent / 100 * rng.normal();
+  const Eigen::AngleAxisd turn(error.turn_deg * std::numbers::pi / 180, axis);
   Camera off = camera;
   off.K(0, 0) *= zoom;
   off.K(1, 1) *= zoom;

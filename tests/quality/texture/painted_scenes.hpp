@@ -58,8 +58,14 @@ struct Scene {
 [[nodiscard]] double turn_deg(std::uint64_t seed);
 [[nodiscard]] Camera camera_at(const Object& object, double azimuth_deg, double elevation_deg);
 
+struct CameraError {
+  double turn_deg = 0.4;     // about any axis
+  double focal_percent = 1;  // standard deviation
+};
+
 /// As an aligner leaves it: turned about the object's middle, and nearer or farther with another focal
 /// length.
-[[nodiscard]] Camera slightly_off(const Object& object, const Camera& camera, std::uint64_t seed);
+[[nodiscard]] Camera slightly_off(const Object& object, const Camera& camera, const CameraError& error,
+                                  std::uint64_t seed);
 
 }  // namespace drape::lab

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "area_prefilter.hpp"
 #include "drape/base/random.hpp"
@@ -8,6 +9,7 @@
 #include "edge_splits.hpp"
 #include "grown_photo.hpp"
 #include "linear_light.hpp"
+#include "photo_colors.hpp"
 #include "support.hpp"
 #include "usable_pixels.hpp"
 
@@ -47,6 +49,26 @@ TEST(AreaPrefilter, MeansOfItsNeighboursAreThePictureAgain) {
   Image8 flat(1, 40, 3, 77);
   prefilter_areas(flat);
   EXPECT_EQ(flat, Image8(1, 40, 3, 77));
+}
+
+TEST(PhotoColors, WavesKeepTheirHeightBetweenPixels) {
+  constexpr int period = 8;
+  Image8 photo(8 * period, 8 * period, 3);
+  for (int y = 0; y < photo.height(); ++y)
+    for (int x = 0; x < photo.width(); ++x)
+      for (int c = 0; c < 3; ++c)
+        photo.at(x, y, c) =
+            byte_from_linear(static_cast<float>(0.5 + 0.3 * std::cos(2 * std::numbers::pi * x / period)));
+  const Image8 trusted(photo.width(), photo.height(), 1, trust::full);
+  const PhotoColors colors({&photo}, trusted);
+  const float height = colors.at({4 * period + 0.5, 30.5})[0] - 0.5F;
+  EXPECT_GT(height, 0.3F);  // prefiltered
+  for (int i = 0; i < period; ++i) {
+    // Half way between two pixels; straight lines would lose 0.08 of the height there.
+    const double truth = 0.5 + height * std::cos(2 * std::numbers::pi * (i + 0.5) / period);
+    EXPECT_NEAR(colors.at({4 * period + i + 1.0, 30.5})[0], truth, 0.02 * height);
+    EXPECT_NEAR(colors.at({4 * period + i + 1.0, 31.0})[0], truth, 0.02 * height);
+  }
 }
 
 TEST(UsablePixels, KeepsTheDistanceFromTheBackground) {
