@@ -281,15 +281,19 @@ SearchPlan ColorEvidence::plan() const {
   if (levels_.front().box) return plan;
   // Parts of the object, and anywhere in the photo other things, part the colours as well as the object does
   // while its pose is coarse: each place keeps its best poses until they are refined.
-  plan.places = 6;
+  plan.places = 12;
+  plan.most_in_a_place = 8;
   plan.glanced_in_a_place = 6;
   plan.middle_in_a_place = 3;
   plan.finalists_in_a_place = 2;
-  if (levels_.front().click) return plan;
+  if (levels_.front().click) {
+    plan.kept_after_glance = plan.kept_with_effort = 48;
+    plan.kept_for_middle = 20;
+    return plan;
+  }
   plan.most_frames = 300;
   plan.candidates = 400;
   plan.places = 16;
-  plan.most_in_a_place = 8;
   plan.kept_after_glance = plan.kept_with_effort = 100;
   plan.kept_for_middle = 32;
   plan.kept_for_full = 8;
