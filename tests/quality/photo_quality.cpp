@@ -47,6 +47,7 @@ struct Outcome {
   bool wrong = true;        // another pose altogether, for the verdict
   bool right = false;       // and on the photo's edges
   bool among_finalists = false;
+  bool free_axis = false;  // for review, as the outline of a body of rotation stays the same about it
   Verdict verdict = Verdict::reject;
   double score = 0;
   double seconds = 0;
@@ -72,13 +73,15 @@ struct Tally {
       degrees.push_back(o.rotation_deg);
     }
     fmt::print(
-        "{:28} | {:3} | right {:3} pose {:3} finalist {:3} | accepted {:3} wrongly {:3} rejected {:3} | deg "
+        "{:28} | {:3} | right {:3} pose {:3} finalist {:3} | accepted {:3} (free about an axis "
+        "{:3}) wrongly {:3} rejected {:3} | deg "
         "med "
         "{:6.2f} | CPU s {:5.2f} max {:5.2f}\n",
         name, outcomes.size(), count([](const Outcome& o) { return o.right; }),
         count([](const Outcome& o) { return o.pose_right; }),
         count([](const Outcome& o) { return o.among_finalists; }),
         count([](const Outcome& o) { return o.right && o.verdict == Verdict::accept; }),
+        count([](const Outcome& o) { return o.right && o.free_axis; }),
         count([](const Outcome& o) { return o.wrong && o.verdict == Verdict::accept; }),
         count([](const Outcome& o) { return o.verdict == Verdict::reject; }),
         metrics::distribution(degrees).median, metrics::distribution(seconds).median,
@@ -118,6 +121,7 @@ Outcome outcome_of(const PhotoCase& photo, const TriangleMesh& mesh, const Hint&
   Outcome outcome;
   outcome.seconds = test::cpu_seconds() - before;
   outcome.verdict = found.verdict;
+  outcome.free_axis = found.free_axis && found.verdict == Verdict::review;
   outcome.rotation_deg = 180;
   const auto within = [&](const Camera& camera) {
     const PoseError error = pose_error(photo, camera);
