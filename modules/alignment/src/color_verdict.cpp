@@ -17,7 +17,7 @@ constexpr double least_edges = 0.45;
 constexpr double good_parting = 0.45;
 constexpr double least_parting = 0.1;
 constexpr double good_inliers = 0.8;
-constexpr double good_score = 0.4;    // of all of them together
+constexpr double good_score = 0.5;    // of all of them together; wrong poses in whole photos: up to 0.44
 constexpr double least_margin = 0.2;  // of the score, in shares of it
 
 }  // namespace

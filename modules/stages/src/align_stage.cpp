@@ -158,7 +158,7 @@ void run(const alignment::AlignOptions& options, pipeline::StageRun& run) {
 pipeline::Stage align_stage() {
   pipeline::Stage stage;
   stage.name = "align";
-  stage.version = 14;
+  stage.version = 15;
   stage.summary =
       "Finds each photo's camera by matching the mesh's outline with the photo's stencil or colours.";
   stage.input_parts = {"photos", "photo_cameras", "photo_regions", "cameras", "up"};
