@@ -13,10 +13,10 @@ namespace drape::meshing {
 namespace {
 
 constexpr int block = VoxelLattice::block;
-constexpr int most_rounds = 2;
-constexpr int widest = block + 2 * most_rounds;
+constexpr int most_steps = 2;
+constexpr int widest = block + 2 * most_steps;
 // Farther from the surface than this, in voxels, no cube has a part of it, nor has the next voxel that a
-// second round asks; and beyond the truncation distances are none.
+// second step asks; and beyond the truncation distances are none.
 constexpr float near_surface = 2;
 
 bool is_near(std::int16_t distance) {
@@ -45,15 +45,16 @@ class Surroundings {
 
   [[nodiscard]] float value(int x, int y, int z) const { return values_[place(x, y, z)]; }
 
-  /// One round, of the block and `reach` voxels round it.
-  void smooth(int reach) {
+  /// One step, of the block and `reach` voxels round it.
+  void smooth(int reach, float share) {
     const std::array<float, widest* widest* widest> before = values_;
     const Directions directions = directions_of(side_);
     for (int z = -reach; z < block + reach; ++z)
       for (int y = -reach; y < block + reach; ++y)
         for (int x = -reach; x < block + reach; ++x) {
           const std::size_t here = place(x, y, z);
-          if (std::abs(before[here]) <= near_surface) values_[here] += shift_of(&before[here], directions);
+          if (std::abs(before[here]) <= near_surface)
+            values_[here] += share * shift_of(&before[here], directions);
         }
   }
 
@@ -124,13 +125,14 @@ std::int16_t quantized(float voxels) {
   return static_cast<std::int16_t>(2 * std::lround(steps / 2));
 }
 
-void smooth_block(const FusedField& raw, const FusionBlocks& blocks, std::size_t b, int rounds,
-                  std::int16_t* to) {
+void smooth_block(const FusedField& raw, const FusionBlocks& blocks, std::size_t b,
+                  std::span<const float> steps, std::int16_t* to) {
   const auto from = raw.of_block(b);
   std::copy(from.begin(), from.end(), to);
   if (std::none_of(from.begin(), from.end(), is_near)) return;
-  Surroundings surroundings(raw, blocks, b, rounds);
-  for (int round = 1; round <= rounds; ++round) surroundings.smooth(rounds - round);
+  int margin = static_cast<int>(steps.size());
+  Surroundings surroundings(raw, blocks, b, margin);
+  for (const float share : steps) surroundings.smooth(--margin, share);
   for (int z = 0; z < block; ++z)
     for (int y = 0; y < block; ++y)
       for (int x = 0; x < block; ++x, ++to)
@@ -139,20 +141,24 @@ void smooth_block(const FusedField& raw, const FusionBlocks& blocks, std::size_t
 
 }  // namespace
 
-int smoothing_rounds(double noise_voxels) {
-  // Of simulated scans of two shapes the normals gain by this many, and the distances do not lose.
-  constexpr double one_round = 0.4;
-  constexpr double two_rounds = 0.8;
-  return noise_voxels >= two_rounds ? most_rounds : (noise_voxels >= one_round ? 1 : 0);
+std::span<const float> smoothing_steps(double noise_voxels) {
+  // Of simulated scans of five shapes the normals gain, and the distances do not lose.
+  constexpr double some = 0.4;
+  constexpr double heavy = 0.8;
+  static constexpr std::array<float, 2> there_and_back = {1, -0.9F};
+  static constexpr std::array<float, 2> twice = {1, 1};
+  if (noise_voxels >= heavy) return twice;
+  if (noise_voxels >= some) return there_and_back;
+  return {};
 }
 
-void smooth_blocks(FusedField& smooth, const FusedField& raw, const FusionBlocks& blocks, int rounds,
-                   std::size_t end) {
+void smooth_blocks(FusedField& smooth, const FusedField& raw, const FusionBlocks& blocks,
+                   std::span<const float> steps, std::size_t end) {
   const std::size_t begin = smooth.end_block();
   smooth.distances.resize((end - smooth.first_block) * VoxelLattice::block_voxels);
   parallel_for(end - begin, 64, [&](std::size_t from, std::size_t to) {
     for (std::size_t b = begin + from; b < begin + to; ++b)
-      smooth_block(raw, blocks, b, rounds,
+      smooth_block(raw, blocks, b, steps,
                    &smooth.distances[(b - smooth.first_block) * VoxelLattice::block_voxels]);
   });
 }

@@ -109,8 +109,8 @@ double median_noise(std::span<const DepthMap> maps) {
 // Gathers the field group by group, and smooths it.
 class FieldSource {
  public:
-  FieldSource(const FusionBlocks& blocks, std::span<const DepthMap> maps, int rounds)
-      : blocks_(blocks), maps_(maps), rounds_(rounds), ends_(group_ends(blocks)) {}
+  FieldSource(const FusionBlocks& blocks, std::span<const DepthMap> maps, std::span<const float> smoothing)
+      : blocks_(blocks), maps_(maps), smoothing_(smoothing), ends_(group_ends(blocks)) {}
 
   [[nodiscard]] std::size_t groups() const { return ends_.size(); }
   /// The end of a group, or of all.
@@ -119,11 +119,11 @@ class FieldSource {
   }
   /// Appends the groups up to this one.
   void extend(FusedField& field, std::size_t group) {
-    if (rounds_ == 0) return fuse_blocks(field, blocks_, maps_, end_of(group));
+    if (smoothing_.empty()) return fuse_blocks(field, blocks_, maps_, end_of(group));
     for (; next_ <= group && next_ < groups(); ++next_) {
       // What touches a group lies in the ones before and after it.
       fuse_blocks(raw_, blocks_, maps_, end_of(next_ + 1));
-      smooth_blocks(field, raw_, blocks_, rounds_, end_of(next_));
+      smooth_blocks(field, raw_, blocks_, smoothing_, end_of(next_));
       if (next_ > 0) raw_.forget_before(end_of(next_ - 1));
     }
   }
@@ -131,7 +131,7 @@ class FieldSource {
  private:
   const FusionBlocks& blocks_;
   std::span<const DepthMap> maps_;
-  int rounds_;
+  std::span<const float> smoothing_;
   std::vector<std::size_t> ends_;
   FusedField raw_;
   std::size_t next_ = 0;
@@ -139,10 +139,11 @@ class FieldSource {
 
 // Of the whole mesh only three groups of blocks are there as voxels at a time: the one that becomes faces,
 // the one above that its uppermost cubes touch, and the one that those touch.
-std::vector<SurfacePart> open_surface(const FusionBlocks& blocks, std::span<const DepthMap> maps, int rounds,
-                                      std::span<const RangeScan> scans, const Progress& progress) {
+std::vector<SurfacePart> open_surface(const FusionBlocks& blocks, std::span<const DepthMap> maps,
+                                      std::span<const float> smoothing, std::span<const RangeScan> scans,
+                                      const Progress& progress) {
   const CommonAttributes common = common_attributes(maps, scans);
-  FieldSource source(blocks, maps, rounds);
+  FieldSource source(blocks, maps, smoothing);
   FusedField field;
   MarchingCubes cubes(blocks);
   std::vector<SurfacePart> parts;
@@ -203,16 +204,16 @@ Fused fused_mesh(std::span<const RangeScan> scans, std::span<const Rigid3> world
   const FusionBlocks blocks = blocks_round(seen.maps, sizes.voxel, FusedField::truncation_voxels);
   Fused fused;
   fused.samples = seen.samples;
-  const int rounds = smoothing_rounds(median_noise(seen.maps) / sizes.voxel);
+  const std::span<const float> smoothing = smoothing_steps(median_noise(seen.maps) / sizes.voxel);
   std::vector<SurfacePart> parts =
-      open_surface(blocks, seen.maps, rounds, scans, progress.part(0.4, sizes.closed ? 0.6 : 0.9));
+      open_surface(blocks, seen.maps, smoothing, scans, progress.part(0.4, sizes.closed ? 0.6 : 0.9));
   if (!sizes.closed) seen.maps = {};
   fused.mesh = cleaned(joined(std::move(parts), blocks), sizes.min_component_percent, fused);
   if (!sizes.closed || fused.mesh.empty()) return fused;
 
   const TriangleMesh open = std::move(fused.mesh);
   FusedField field;
-  FieldSource source(blocks, seen.maps, rounds);
+  FieldSource source(blocks, seen.maps, smoothing);
   source.extend(field, source.groups());
   const CarvedSpace carved = carved_space(blocks, field, seen.maps, open, progress.part(0.7, 0.95));
   parts = whole_surface(carved.blocks, carved.field);

@@ -144,7 +144,9 @@ void weigh(RangeSheet& sheet) {
     for (const std::uint32_t v : f) {
       RangeSample& s = sheet.samples[v];
       const float inside = (static_cast<float>(distances[v]) + 0.5F) / (ramp + 0.5F);
-      s.weight = inside * sheet.sight.incidence_cosine(s.column, s.row, s.slope_x, s.slope_y);
+      // The root: with less weight than that, more of the other scans' noise comes in than of the border's
+      // error stays out.
+      s.weight = std::sqrt(inside) * sheet.sight.incidence_cosine(s.column, s.row, s.slope_x, s.slope_y);
     }
 }
 

@@ -9,6 +9,8 @@
 namespace drape::meshing {
 namespace {
 
+constexpr int bends_stride = 4;  // of the widest rounds, on a lattice: their reach goes by the bends
+
 // In the lattice's own proportions, where a spacing is one across and deep.
 std::vector<Eigen::Vector3f> unit_normals(const std::vector<RangeSample>& samples) {
   std::vector<Eigen::Vector3f> normals(samples.size());
@@ -66,6 +68,31 @@ float normal_noise_of(const std::vector<RangeSample>& samples, const std::vector
   return deviation_of(std::move(differences));
 }
 
+// How much the surface turns about each sample, from 0 where it is as good as flat to 1.
+std::vector<float> bends_of(const std::vector<RangeSample>& samples, const SampleNeighbors& neighbors) {
+  // 1 - the length of the mean normal; nearly flat shapes have less than the one, under heavy noise, and
+  // small round ones more than the other.
+  constexpr float flat = 0.001F;
+  constexpr float bent = 0.02F;
+  const std::vector<Eigen::Vector3f> normals = unit_normals(samples);
+  std::vector<float> bends(samples.size(), 1.0F);
+  neighbors.for_all(
+      [&](std::size_t i, std::span<const std::uint32_t> around) {
+        if (!seen(samples[i])) return;
+        Eigen::Vector3f sum = normals[i];
+        float count = 1;
+        for (const std::uint32_t j : around) {
+          if (!seen(samples[j])) continue;
+          sum += normals[j];
+          ++count;
+        }
+        const float spread = std::max(flat, 1 - sum.norm() / count);
+        bends[i] = std::min(1.0F, std::log(spread / flat) / std::log(bent / flat));
+      },
+      bends_stride);
+  return bends;
+}
+
 // How far a neighbour lies off a sample along the ray, in spacings, by their tangent planes, and what it
 // counts.
 struct Tie {
@@ -73,13 +100,14 @@ struct Tie {
   float weight = 0;
 };
 
-// What counts as one surface.
+// What counts as one surface. `bends` are those of the samples, or none.
 class Likeness {
  public:
   Likeness(const std::vector<RangeSample>& samples, const SampleNeighbors& neighbors, const Sight& sight,
-           float noise, int stride, float share_of_its_plane)
+           float noise, int stride, float share_of_its_plane, const std::vector<float>& bends)
       : samples_(samples),
         share_of_its_plane_(share_of_its_plane),
+        bends_(bends),
         sight_(sight),
         normals_(unit_normals(samples)),
         per_pixel_(static_cast<float>(1 / sight.pixels_per_spacing)) {
@@ -109,8 +137,7 @@ class Likeness {
     const float from_its = off_its * normals_[i].z();
     const float apart = std::max(std::abs(from_mine), std::abs(from_its)) * per_distance_limit_;
     // A steep surface's samples are far apart: the reach is that of the stride in space.
-    constexpr float reach_strides = 3;
-    const float reach = reach_strides * static_cast<float>(stride);
+    const float reach = reach_strides(center, stride) * static_cast<float>(stride);
     const float like =
         1 - (normals_[i] - normals_[center]).squaredNorm() * per_normal_limit_ * per_normal_limit_;
     const float near = 1 - apart * apart;
@@ -121,8 +148,17 @@ class Likeness {
   }
 
  private:
+  [[nodiscard]] float reach_strides(std::size_t center, int stride) const {
+    constexpr float usual = 3;
+    constexpr float on_flat = 4;
+    constexpr float on_bent = 1.6F;
+    if (stride < bends_stride || bends_.empty()) return usual;
+    return on_flat + bends_[center] * (on_bent - on_flat);
+  }
+
   const std::vector<RangeSample>& samples_;
   float share_of_its_plane_;
+  const std::vector<float>& bends_;
   const Sight& sight_;
   std::vector<Eigen::Vector3f> normals_;
   float per_pixel_;
@@ -176,6 +212,7 @@ struct Averaging {
   struct Round {
     int stride = 1;
     float share = 1;  // of the way to the average
+    bool flat_only = false;
   };
   std::vector<Round> rounds;
   // What a neighbour says of a sample's depth is by the sample's tangent plane and, to this share, by its
@@ -196,7 +233,10 @@ Averaging averaging_for(float noise, bool on_lattice) {
   if (noise >= 0.3F) averaging.rounds = {{1}, {2}, {2}};
   if (on_lattice) {
     const float heavy = std::clamp((noise - 0.4F) / 0.2F, 0.0F, 1.0F);
-    if (heavy > 0) averaging.rounds.insert(averaging.rounds.end(), 2, {4, heavy});
+    if (heavy > 0) {
+      averaging.rounds.insert(averaging.rounds.end(), 2, {bends_stride, heavy});
+      averaging.rounds.insert(averaging.rounds.end(), 2, {bends_stride, heavy, true});
+    }
     averaging.share_of_its_plane = 0.65F * heavy;
     averaging.share_of_rest = 1 - 0.4F * heavy;
     averaging.crease_spread_ratio = 0.5F * heavy;
@@ -204,7 +244,8 @@ Averaging averaging_for(float noise, bool on_lattice) {
   }
   if (noise >= 0.5F) averaging.rounds.push_back({4});
   std::size_t rounds = 0;
-  for (const auto& [stride, share] : averaging.rounds) rounds += static_cast<std::size_t>(stride * stride);
+  for (const Averaging::Round& round : averaging.rounds)
+    rounds += static_cast<std::size_t>(round.stride * round.stride);
   averaging.rounds.assign(rounds, {1});
   return averaging;
 }
@@ -225,31 +266,40 @@ std::vector<RangeSample> averaged_over_surfaces(std::vector<RangeSample> samples
   if (averaging.rounds.empty()) return samples;
   std::vector<float> rest(samples.size(), 0.0F);
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = samples[i].depth;
+  std::vector<float> bends;
+  const auto share_of = [&bends](const Averaging::Round& round, std::size_t i) {
+    return round.flat_only ? round.share * (1 - bends[i]) : round.share;
+  };
   bool first = true;
-  for (const auto& [stride, share] : averaging.rounds) {
+  for (const Averaging::Round& round : averaging.rounds) {
     // The first normals are mostly noise: there are no creases to be told from it yet.
     if (averaging.crease_spread_ratio > 0 && !first)
       samples = with_sharp_creases(std::move(samples), neighbors, averaging.crease_spread_ratio);
     first = false;
+    if (round.stride == bends_stride && bends.empty()) bends = bends_of(samples, neighbors);
     const std::vector<RangeSample> before = samples;
-    const Likeness likeness(before, neighbors, sight, noise, stride, averaging.share_of_its_plane);
+    const Likeness likeness(before, neighbors, sight, noise, round.stride, averaging.share_of_its_plane,
+                            bends);
     neighbors.for_all(
-        [&, part = share, step = stride](std::size_t i, std::span<const std::uint32_t> around) {
-          if (seen(before[i]))
-            samples[i] = part_of_the_way(before[i], averaged(before, likeness, i, around, step), part);
+        [&](std::size_t i, std::span<const std::uint32_t> around) {
+          if (!seen(before[i])) return;
+          const RangeSample average = averaged(before, likeness, i, around, round.stride);
+          samples[i] = part_of_the_way(before[i], average, share_of(round, i));
         },
-        stride);
+        round.stride);
   }
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= samples[i].depth;
   const Likeness likeness(samples, neighbors, sight, noise, averaging.rounds.back().stride,
-                          averaging.share_of_its_plane);
-  for (const auto& [stride, share] : averaging.rounds) {
+                          averaging.share_of_its_plane, bends);
+  for (const Averaging::Round& round : averaging.rounds) {
     const std::vector<float> before = rest;
     neighbors.for_all(
-        [&, part = share, step = stride](std::size_t i, std::span<const std::uint32_t> around) {
-          if (seen(samples[i])) rest[i] += part * (averaged(before, likeness, i, around, step) - before[i]);
+        [&](std::size_t i, std::span<const std::uint32_t> around) {
+          if (!seen(samples[i])) return;
+          const float average = averaged(before, likeness, i, around, round.stride);
+          rest[i] += share_of(round, i) * (average - before[i]);
         },
-        stride);
+        round.stride);
   }
   for (std::size_t i = 0; i < rest.size(); ++i) samples[i].depth += averaging.share_of_rest * rest[i];
   return samples;

@@ -36,7 +36,7 @@ pipeline::Stage mesh_stage() {
                  {"ingest", "scans/*.ply"},
                  {"register", "poses.json"},
                  {"register", "cloud.ply"}};
-  stage.version = 8;
+  stage.version = 9;
   stage.writes = {"mesh.ply"};
   stage.applies = [](const pipeline::Input& input) { return !input.scans.empty(); };
   stage.instantiate = pipeline::stage_body(run);

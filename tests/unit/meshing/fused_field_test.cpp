@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -78,9 +80,10 @@ std::pair<FusionBlocks, FusedField> field_of(Distance distance) {
   return {std::move(blocks), std::move(field)};
 }
 
-FusedField smoothed_field(const FusionBlocks& blocks, const FusedField& field, int rounds) {
+FusedField smoothed_field(const FusionBlocks& blocks, const FusedField& field,
+                          const std::vector<float>& steps) {
   FusedField smooth;
-  smooth_blocks(smooth, field, blocks, rounds, blocks.size());
+  smooth_blocks(smooth, field, blocks, steps, blocks.size());
   return smooth;
 }
 
@@ -95,15 +98,15 @@ TEST(FieldSmoothing, TakesNoiseOffAPlaneAcrossBlocks) {
     return std::sqrt(sum / static_cast<double>(mesh.vertices.size()));
   };
   const double before = error(field);
-  EXPECT_LT(error(smoothed_field(blocks, field, 1)), 0.5 * before);
-  EXPECT_LT(error(smoothed_field(blocks, field, 2)), 0.35 * before);
+  EXPECT_LT(error(smoothed_field(blocks, field, {1})), 0.5 * before);
+  EXPECT_LT(error(smoothed_field(blocks, field, {1, 1})), 0.35 * before);
 }
 
 TEST(FieldSmoothing, LeavesPlanesGuessesAndTheUnknownAndKeepsCreases) {
   auto [blocks, field] = field_of([](const Vector3d& p) { return std::max(p.z(), p.x()) - 19.5; });
   field.distances[13 * 512 + 300] = FusedField::unknown;
   field.distances[13 * 512 + 301] = 4001;  // a guess
-  const FusedField smooth = smoothed_field(blocks, field, 2);
+  const FusedField smooth = smoothed_field(blocks, field, {1, 1});
   for (std::size_t i = 0; i < field.distances.size(); ++i) {
     const std::size_t voxel = i % VoxelLattice::block_voxels;
     const Eigen::Vector3i at = blocks.corner(i / VoxelLattice::block_voxels) +
@@ -119,9 +122,38 @@ TEST(FieldSmoothing, LeavesPlanesGuessesAndTheUnknownAndKeepsCreases) {
 }
 
 TEST(FieldSmoothing, IsForNoise) {
-  EXPECT_EQ(smoothing_rounds(0.1), 0);
-  EXPECT_EQ(smoothing_rounds(0.6), 1);
-  EXPECT_EQ(smoothing_rounds(1.2), 2);
+  const auto sum = [](std::span<const float> steps) {
+    return std::accumulate(steps.begin(), steps.end(), 0.0F);
+  };
+  EXPECT_TRUE(smoothing_steps(0.1).empty());
+  EXPECT_NEAR(sum(smoothing_steps(0.6)), 0.1, 1e-6);
+  EXPECT_EQ(sum(smoothing_steps(1.2)), 2);
+}
+
+TEST(FieldSmoothing, ThereAndBackTakesNoiseAndLeavesARoundShape) {
+  Rng random(2);
+  const auto ball = [](const Vector3d& p) { return (p - Vector3d::Constant(19.5)).norm() - 6; };
+  const auto [blocks, exact] = field_of(ball);
+  const auto [same_blocks, noisy] =
+      field_of([&](const Vector3d& p) { return ball(p) + 0.2 * random.normal(); });
+  const auto shift_and_spread = [&, &b = blocks](const FusedField& f) {
+    const TriangleMesh mesh = surface_at_once(b, f);
+    const auto count = static_cast<double>(mesh.vertices.size());
+    double sum = 0;
+    double squares = 0;
+    for (const Vector3d& p : mesh.vertices) {
+      sum += ball(p);
+      squares += ball(p) * ball(p);
+    }
+    return std::pair(sum / count, std::sqrt(squares / count));
+  };
+  const std::span<const float> steps = smoothing_steps(0.6);
+  const std::vector<float> there_and_back(steps.begin(), steps.end());
+  const double shrunk = shift_and_spread(smoothed_field(blocks, exact, {1})).first;
+  EXPECT_LT(shrunk, -0.05);
+  EXPECT_GT(shift_and_spread(smoothed_field(blocks, exact, there_and_back)).first, 0.3 * shrunk);
+  EXPECT_LT(shift_and_spread(smoothed_field(blocks, noisy, there_and_back)).second,
+            0.75 * shift_and_spread(noisy).second);
 }
 
 TEST(DepthMaps, FollowABendBetweenSamples) {
